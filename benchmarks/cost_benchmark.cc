@@ -1,0 +1,90 @@
+// Autodiff against analytic residual blocks, on the whole evaluation that a solver asks for: cost and gradient of a
+// ceres::Problem, and the same with its Jacobian. Run benchmarks/cost_benchmark of a build with
+// -DOCTUPOLE_BUILD_BENCHMARKS=ON; compare the columns of one run.
+#include <benchmark/benchmark.h>
+#include <ceres/crs_matrix.h>
+#include <ceres/problem.h>
+
+#include <string>
+#include <vector>
+
+#include "octupole/analytic_deviation_cost.h"
+#include "octupole/analytic_smoothness_cost.h"
+#include "octupole/box_mesh.h"
+#include "octupole/deviation_cost.h"
+#include "octupole/field_problem.h"
+#include "octupole/smoothness_cost.h"
+
+namespace octupole {
+namespace {
+
+FieldGraph BoxGraph() {
+  const TetMesh mesh = MakeBoxMesh({12, 12, 12}, {1, 1, 1});
+  return MakeFieldGraph(mesh, std::vector<Alignment>(mesh.points.size()));
+}
+
+void Evaluate(ceres::Problem* problem, benchmark::State* state) {
+  double cost;
+  std::vector<double> gradient;
+  ceres::CRSMatrix jacobian;
+  ceres::Problem::EvaluateOptions options;
+  for (auto _ : *state) {
+    problem->Evaluate(options, &cost, nullptr, &gradient, state->range(0) == 0 ? nullptr : &jacobian);
+    benchmark::DoNotOptimize(cost);
+  }
+}
+
+template <int kDegree>
+void EdgeTerms(benchmark::State& state, ceres::CostFunction* (*create)(double)) {
+  const FieldGraph graph = BoxGraph();
+  std::vector<Harmonic<kDegree>> field = RandomField<kDegree>(graph, 0);
+  ceres::Problem problem;
+  ceres::CostFunction* cost = create(1);
+  for (const WeightedEdge& e : graph.edges) {
+    problem.AddResidualBlock(cost, nullptr, field[e.a].data(), field[e.b].data());
+  }
+  Evaluate(&problem, &state);
+}
+
+template <int kDegree>
+void VertexTerms(benchmark::State& state, ceres::CostFunction* (*create)(double)) {
+  std::vector<Harmonic<kDegree>> field = RandomField<kDegree>(BoxGraph(), 0);
+  ceres::Problem problem;
+  ceres::CostFunction* cost = create(1);
+  for (Harmonic<kDegree>& h : field) problem.AddResidualBlock(cost, nullptr, h.data());
+  Evaluate(&problem, &state);
+}
+
+template <int kDegree>
+void FieldEnergy(benchmark::State& state) {
+  const FieldGraph graph = BoxGraph();
+  std::vector<Harmonic<kDegree>> field = RandomField<kDegree>(graph, 0);
+  ceres::Problem problem;
+  BuildFieldProblem<kDegree>(graph, {}, &field, &problem);
+  Evaluate(&problem, &state);
+}
+
+template <int kDegree>
+void Register(const std::string& degree) {
+  using benchmark::RegisterBenchmark;
+  for (benchmark::internal::Benchmark* registered :
+       {RegisterBenchmark(("smoothness autodiff " + degree).c_str(), EdgeTerms<kDegree>, SmoothnessCost<kDegree>::Create),
+        RegisterBenchmark(("smoothness analytic " + degree).c_str(), EdgeTerms<kDegree>,
+                          AnalyticSmoothnessCost<kDegree>::Create),
+        RegisterBenchmark(("deviation autodiff " + degree).c_str(), VertexTerms<kDegree>, DeviationCost<kDegree>::Create),
+        RegisterBenchmark(("deviation analytic " + degree).c_str(), VertexTerms<kDegree>,
+                          AnalyticDeviationCost<kDegree>::Create),
+        RegisterBenchmark(("field energy " + degree).c_str(), FieldEnergy<kDegree>)}) {
+    registered->ArgName("jacobian")->Arg(0)->Arg(1);
+  }
+}
+
+}  // namespace
+}  // namespace octupole
+
+int main(int argc, char** argv) {
+  octupole::Register<3>("degree 3");
+  octupole::Register<4>("degree 4");
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+}

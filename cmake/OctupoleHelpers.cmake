@@ -1,0 +1,36 @@
+include(CMakePackageConfigHelpers)
+
+# octupole_add_library(<component> [HEADERS ...] [SOURCES ...] [LINK ...])
+#
+# Makes the target octupole_<component> with the alias octupole::<component>, the current folder as its include root,
+# and an export set of its own, so that a consumer of one component needs the dependencies of that one only.
+function(octupole_add_library component)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS;SOURCES;LINK")
+  set(target octupole_${component})
+  if(arg_SOURCES)
+    set(scope PUBLIC)
+    add_library(${target})
+    target_sources(${target} PRIVATE ${arg_SOURCES})
+  else()
+    set(scope INTERFACE)
+    add_library(${target} INTERFACE)
+  endif()
+  add_library(octupole::${component} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${component} POSITION_INDEPENDENT_CODE ON
+                        VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  target_compile_features(${target} ${scope} cxx_std_17)
+  target_sources(${target} ${scope} FILE_SET HEADERS BASE_DIRS ${CMAKE_CURRENT_SOURCE_DIR} FILES ${arg_HEADERS})
+  target_link_libraries(${target} ${scope} ${arg_LINK})
+  install(TARGETS ${target} EXPORT octupole-${component} FILE_SET HEADERS)
+  install(EXPORT octupole-${component} NAMESPACE octupole::
+          FILE octupole-${component}-targets.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/octupole)
+endfunction()
+
+# Installs the package configuration behind find_package(octupole).
+function(octupole_install_package)
+  set(destination ${CMAKE_INSTALL_LIBDIR}/cmake/octupole)
+  configure_package_config_file(cmake/octupole-config.cmake.in octupole-config.cmake INSTALL_DESTINATION ${destination})
+  write_basic_package_version_file(octupole-config-version.cmake COMPATIBILITY SameMinorVersion)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/octupole-config.cmake
+                ${CMAKE_CURRENT_BINARY_DIR}/octupole-config-version.cmake DESTINATION ${destination})
+endfunction()

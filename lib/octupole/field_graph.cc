@@ -1,0 +1,37 @@
+#include "octupole/field_graph.h"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "octupole/mesh_topology.h"
+
+namespace octupole {
+
+FieldGraph MakeFieldGraph(const TetMesh& mesh, std::vector<Alignment> alignments) {
+  if (alignments.size() != mesh.points.size()) {
+    std::ostringstream message;
+    message << "MakeFieldGraph: " << alignments.size() << " alignments for " << mesh.points.size() << " points";
+    throw std::invalid_argument(message.str());
+  }
+  FieldGraph graph;
+  graph.alignments = std::move(alignments);
+  for (const auto& [a, b] : MeshEdges(mesh)) graph.edges.push_back({a, b, 1});
+  return graph;
+}
+
+void CheckFieldGraph(const FieldGraph& graph) {
+  const auto num_vertices = static_cast<int>(graph.num_vertices());
+  for (std::size_t i = 0; i < graph.edges.size(); ++i) {
+    const auto& [a, b, weight] = graph.edges[i];
+    const bool ends_are_good = 0 <= a && a < num_vertices && 0 <= b && b < num_vertices && a != b;
+    if (ends_are_good && weight >= 0 && std::isfinite(weight)) continue;
+    std::ostringstream message;
+    message << "CheckFieldGraph: edge " << i << " (" << a << ", " << b << ") of weight " << weight << " in a graph of "
+            << num_vertices << " vertices";
+    throw std::invalid_argument(message.str());
+  }
+}
+
+}  // namespace octupole

@@ -1,0 +1,60 @@
+#include "octupole/field_quality.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "octupole/frame.h"
+#include "octupole/mesh_topology.h"
+#include "octupole/octahedral_group.h"
+#include "octupole/surface_corners.h"
+
+namespace octupole {
+namespace {
+
+constexpr double kSmoothAngleDeg = 35;
+
+void MeasureBoundary(const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& frames, FieldQuality* quality) {
+  const auto corners_of = SurfaceCorners(mesh.points, BoundaryTriangles(mesh));
+  double sum_of_squares = 0;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    if (corners_of[v].empty() || !NormalsAgree(corners_of[v], kSmoothAngleDeg)) continue;
+    const Eigen::Vector3d normal = MeanNormal(corners_of[v]);
+    double angle = EIGEN_PI;
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d axis = frames[v].col(k);
+      angle = std::min(angle, std::atan2(axis.cross(normal).norm(), std::abs(axis.dot(normal))));
+    }
+    angle *= 180 / EIGEN_PI;
+    sum_of_squares += angle * angle;
+    quality->boundary_max_deg = std::max(quality->boundary_max_deg, angle);
+    ++quality->smooth_boundary_vertices;
+  }
+  if (quality->smooth_boundary_vertices > 0) {
+    quality->boundary_rms_deg = std::sqrt(sum_of_squares / static_cast<double>(quality->smooth_boundary_vertices));
+  }
+}
+
+}  // namespace
+
+FieldQuality MeasureField(const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& frames) {
+  if (frames.size() != mesh.points.size()) {
+    std::ostringstream message;
+    message << "MeasureField: " << frames.size() << " frames for " << mesh.points.size() << " points";
+    throw std::invalid_argument(message.str());
+  }
+  FieldQuality quality;
+  for (const auto& [a, b] : MeshEdges(mesh)) {
+    quality.energy3 += FrameDifference<3>(frames[a], frames[b]);
+    quality.energy4 += FrameDifference<4>(frames[a], frames[b]);
+  }
+  for (const auto& [a, b, c] : MeshTriangles(mesh)) {
+    quality.singular_triangles += IsSingularTriangle(frames[a], frames[b], frames[c]);
+  }
+  MeasureBoundary(mesh, frames, &quality);
+  return quality;
+}
+
+}  // namespace octupole

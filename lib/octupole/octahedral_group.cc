@@ -1,0 +1,64 @@
+#include "octupole/octahedral_group.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace octupole {
+namespace {
+
+std::array<OctahedralRotation, 24> MakeGroup() {
+  std::array<OctahedralRotation, 24> group;
+  auto next = group.begin();
+  std::array<int, 3> axis = {0, 1, 2};
+  do {
+    const int parity = (axis[1] - axis[0]) * (axis[2] - axis[0]) * (axis[2] - axis[1]) > 0 ? 1 : -1;
+    for (int signs = 0; signs < 4; ++signs) {
+      const int x = signs & 1 ? -1 : 1, y = signs & 2 ? -1 : 1;
+      *next++ = {axis, {x, y, parity * x * y}};
+    }
+  } while (std::next_permutation(axis.begin(), axis.end()));
+  return group;
+}
+
+}  // namespace
+
+Eigen::Matrix3d OctahedralRotation::matrix() const {
+  Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
+  for (int i = 0; i < 3; ++i) m(i, axis[i]) = sign[i];
+  return m;
+}
+
+OctahedralRotation OctahedralRotation::operator*(const OctahedralRotation& other) const {
+  OctahedralRotation product;
+  for (int i = 0; i < 3; ++i) {
+    product.axis[i] = other.axis[axis[i]];
+    product.sign[i] = sign[i] * other.sign[axis[i]];
+  }
+  return product;
+}
+
+const std::array<OctahedralRotation, 24>& OctahedralGroup() {
+  static const std::array<OctahedralRotation, 24> group = MakeGroup();
+  return group;
+}
+
+OctahedralRotation MatchFrames(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
+  const Eigen::Matrix3d q = a.transpose() * b;
+  const OctahedralRotation* best = &OctahedralGroup()[0];
+  double best_trace = -std::numeric_limits<double>::infinity();
+  for (const OctahedralRotation& g : OctahedralGroup()) {
+    double trace = 0;
+    for (int i = 0; i < 3; ++i) trace += g.sign[i] * q(i, g.axis[i]);
+    if (trace > best_trace) {
+      best_trace = trace;
+      best = &g;
+    }
+  }
+  return *best;
+}
+
+bool IsSingularTriangle(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b, const Eigen::Matrix3d& c) {
+  return MatchFrames(a, b) * MatchFrames(b, c) * MatchFrames(c, a) != OctahedralRotation();
+}
+
+}  // namespace octupole

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace octupole::internal {
+
+/// The corners of a tetrahedron's edges and faces.
+inline constexpr std::array<std::array<int, 2>, 6> kTetEdges = {
+    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+inline constexpr std::array<std::array<int, 3>, 4> kTetFaces = {
+    {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}}};
+
+/// The vertices of an edge, face or tetrahedron in ascending order, and the cell it was taken from.
+template <std::size_t N>
+struct Simplex {
+  std::array<int, N> vertices;
+  int cell;
+};
+
+/// Takes the corners `pattern` (each ascending) of all cells and sorts the resulting simplices
+/// lexicographically, so that equal ones are neighbours. They go into a bucket for each smallest
+/// vertex first: the buckets of a mesh are small, which makes this several times faster than one
+/// large sort.
+template <std::size_t N, std::size_t M, std::size_t K>
+std::vector<Simplex<N>> SortedSimplices(std::vector<std::array<int, M>> cells,
+                                        const std::array<std::array<int, N>, K>& pattern,
+                                        std::size_t num_points) {
+  std::vector<std::size_t> bucket_begin(num_points + 1, 0);
+  for (std::array<int, M>& cell : cells) {
+    for (std::size_t i = 0; i < M; ++i) {
+      for (std::size_t j = i + 1; j < M; ++j) {
+        if (cell[j] < cell[i]) {
+          std::swap(cell[i], cell[j]);
+        }
+      }
+    }
+    for (const std::array<int, N>& corners : pattern) {
+      ++bucket_begin[cell[corners[0]] + 1];
+    }
+  }
+  for (std::size_t v = 0; v < num_points; ++v) {
+    bucket_begin[v + 1] += bucket_begin[v];
+  }
+  std::vector<Simplex<N>> simplices(bucket_begin.back());
+  std::vector<std::size_t> bucket_end(bucket_begin.begin(), bucket_begin.end() - 1);
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    for (const std::array<int, N>& corners : pattern) {
+      Simplex<N>& simplex = simplices[bucket_end[cells[c][corners[0]]]++];
+      for (std::size_t i = 0; i < N; ++i) {
+        simplex.vertices[i] = cells[c][corners[i]];
+      }
+      simplex.cell = static_cast<int>(c);
+    }
+  }
+  for (std::size_t v = 0; v < num_points; ++v) {
+    std::sort(simplices.begin() + bucket_begin[v], simplices.begin() + bucket_end[v],
+              [](const auto& a, const auto& b) { return a.vertices < b.vertices; });
+  }
+  return simplices;
+}
+
+/// Calls visit(first simplex, number of equal ones) for each distinct simplex of a sorted list.
+template <std::size_t N, typename Visit>
+void ForEachDistinct(const std::vector<Simplex<N>>& sorted, const Visit& visit) {
+  for (std::size_t begin = 0, end = 0; begin < sorted.size(); begin = end) {
+    while (end < sorted.size() && sorted[end].vertices == sorted[begin].vertices) {
+      ++end;
+    }
+    visit(sorted[begin], static_cast<int>(end - begin));
+  }
+}
+
+}  // namespace octupole::internal

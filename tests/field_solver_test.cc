@@ -1,0 +1,127 @@
+#include "octupole/field_solver.h"
+
+#include <ceres/iteration_callback.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <tuple>
+
+#include "octupole/box_mesh.h"
+#include "octupole/field_graph.h"
+#include "octupole/field_quality.h"
+#include "octupole/frame.h"
+#include "octupole/solver_presets.h"
+#include "random_inputs.h"
+
+namespace octupole {
+namespace {
+
+using Eigen::Matrix3d;
+
+const TetMesh& Box() {
+  static const TetMesh mesh = MakeBoxMesh({6, 5, 4}, {6, 5, 4});
+  return mesh;
+}
+
+// The largest angle between an axis of a frame and the nearest coordinate axis.
+double AngleToCoordinateAxes(const std::vector<Matrix3d>& frames) {
+  double worst = 0;
+  for (const Matrix3d& frame : frames) {
+    for (int k = 0; k < 3; ++k) {
+      Eigen::Vector3d sorted = frame.col(k).cwiseAbs();
+      std::sort(sorted.begin(), sorted.end());
+      worst = std::max(worst, std::atan2(std::hypot(sorted[0], sorted[1]), sorted[2]));
+    }
+  }
+  return worst;
+}
+
+template <int kDegree>
+FieldOptions<kDegree> OptionsOf(SolverPreset preset, std::uint32_t seed) {
+  FieldOptions<kDegree> options;
+  options.seed = seed;
+  options.solver = MakeSolverOptions(preset);
+  return options;
+}
+
+class BoxTest : public testing::TestWithParam<SolverPreset> {};
+
+// The field of a box is constant, from every start.
+TEST_P(BoxTest, HasTheConstantFieldFrom20Seeds) {
+  const double num_edges = static_cast<double>(MakeFieldGraph(Box(), std::vector<Alignment>(Box().points.size())).edges.size());
+  for (std::uint32_t seed = 0; seed < 20; ++seed) {
+    const Field<3> field = SolveField<3>(Box(), OptionsOf<3>(GetParam(), seed));
+    EXPECT_EQ(field.summary.termination_type, ceres::CONVERGENCE) << field.summary.message;
+    EXPECT_LT(field.energy, 1e-8 * num_edges) << "seed " << seed;
+    EXPECT_LT(AngleToCoordinateAxes(field.frames), 1e-4) << "seed " << seed;
+  }
+}
+
+TEST_P(BoxTest, HasTheConstantFieldInDegree4) {
+  const Field<4> field = SolveField<4>(Box(), OptionsOf<4>(GetParam(), 1));
+  EXPECT_LT(field.energy, 1e-4);
+  EXPECT_LT(AngleToCoordinateAxes(field.frames), 1e-4);
+}
+
+INSTANTIATE_TEST_SUITE_P(EverySolver, BoxTest,
+                         testing::Values(SolverPreset::kSparseCholesky, SolverPreset::kConjugateGradients,
+                                         SolverPreset::kLbfgs));
+
+TEST(SolveField, RepeatsWithItsSeed) {
+  const Field<3> a = SolveField<3>(Box(), OptionsOf<3>(SolverPreset::kLbfgs, 3));
+  const Field<3> b = SolveField<3>(Box(), OptionsOf<3>(SolverPreset::kLbfgs, 3));
+  EXPECT_EQ(a.coefficients, b.coefficients);
+  EXPECT_EQ(a.energy, b.energy);
+}
+
+TEST(SolveField, StartsWhereTheCallerSays) {
+  FieldOptions<3> options = OptionsOf<3>(SolverPreset::kLbfgs, 0);
+  options.start.assign(Box().points.size(), ReferenceHarmonic<3>());
+  const Field<3> field = SolveField<3>(Box(), options);
+  EXPECT_LE(field.summary.iterations.size(), 1u) << "the start is the solution";
+  EXPECT_NEAR(field.energy, 0, 1e-20);
+  options.start.pop_back();
+  EXPECT_THROW(SolveField<3>(Box(), options), std::invalid_argument);
+}
+
+TEST(SolveField, ReturnsWhatWasReachedWhenStopped) {
+  class Stop : public ceres::IterationCallback {
+    ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
+      return summary.iteration == 3 ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+    }
+  } stop;
+  FieldOptions<3> options = OptionsOf<3>(SolverPreset::kLbfgs, 0);
+  options.solver->callbacks.push_back(&stop);
+  const Field<3> field = SolveField<3>(Box(), options);
+  EXPECT_EQ(field.summary.termination_type, ceres::USER_SUCCESS);
+  EXPECT_LT(field.energy, 2 * field.summary.initial_cost);
+  EXPECT_EQ(field.frames.size(), Box().points.size());
+}
+
+// A ball made of a box: every boundary vertex keeps to the normal, and the field has to turn and be singular.
+TEST(SolveField, AlignsWithACurvedBoundary) {
+  TetMesh mesh = MakeBoxMesh({8, 8, 8}, {2, 2, 2});
+  for (Eigen::Vector3d& p : mesh.points) {
+    p -= Eigen::Vector3d::Ones();
+    const double largest = p.cwiseAbs().maxCoeff();
+    if (largest > 0) p *= largest / p.norm();
+  }
+  const Field<3> field = SolveField<3>(mesh, OptionsOf<3>(SolverPreset::kLbfgs, 0));
+  EXPECT_EQ(field.alignment.num_normals, 9u * 9u * 9u - 7u * 7u * 7u);
+  const FieldQuality quality = MeasureField(mesh, field.frames);
+  EXPECT_GT(quality.smooth_boundary_vertices, 300u);
+  EXPECT_LT(quality.boundary_max_deg, 1e-4);
+  EXPECT_GT(quality.singular_triangles, 8u);
+}
+
+TEST(SolveField, RefusesABadMesh) {
+  TetMesh mesh = Box();
+  mesh.tets[7][1] = 100000;
+  EXPECT_THROW(SolveField<3>(mesh), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace octupole

@@ -1,0 +1,237 @@
+#include "field_command.h"
+
+#include <ceres/iteration_callback.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "interruption.h"
+#include "octupole/atomic_file.h"
+#include "octupole/field_quality.h"
+#include "octupole/field_solver.h"
+#include "octupole/field_writer.h"
+#include "octupole/mesh_inspection.h"
+#include "octupole/mesh_io.h"
+#include "octupole/mesh_topology.h"
+#include "octupole/solver_presets.h"
+
+namespace octupole {
+namespace {
+
+const std::map<std::string, SolverPreset> kSolverOfName = {{"cholesky", SolverPreset::kSparseCholesky},
+                                                           {"cgnr", SolverPreset::kConjugateGradients},
+                                                           {"lbfgs", SolverPreset::kLbfgs}};
+
+struct Arguments {
+  std::filesystem::path mesh;
+  std::filesystem::path output;
+  std::filesystem::path report;
+  int degree = 3;
+  std::optional<SolverPreset> solver;
+  double feature_angle = 40;
+  std::uint32_t seed = 0;
+  int threads = 1;
+  std::optional<int> max_iterations;
+  bool quiet = false;
+};
+
+std::string NameOf(SolverPreset preset) {
+  for (const auto& [name, value] : kSolverOfName) {
+    if (value == preset) return name;
+  }
+  throw std::logic_error("NameOf: a preset without a name");
+}
+
+class Stopwatch {
+ public:
+  /// Seconds since the construction or the last lap.
+  double Lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - start_).count();
+    start_ = now;
+    return seconds;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+// Stops the solver on Ctrl-C, and shows the progress in one line of a terminal.
+class Progress : public ceres::IterationCallback {
+ public:
+  Progress(const InterruptionGuard* guard, bool is_shown) : guard_(guard), is_shown_(is_shown) {}
+
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
+    if (is_shown_) {
+      std::fprintf(stderr, "\r\033[Kiteration %d  energy %.6g  %.1f s", summary.iteration, 2 * summary.cost,
+                   summary.cumulative_time_in_seconds);
+      std::fflush(stderr);
+    }
+    return guard_->IsInterrupted() ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+  }
+
+  void Finish() const {
+    if (is_shown_) std::fprintf(stderr, "\r\033[K");
+  }
+
+ private:
+  const InterruptionGuard* guard_;
+  bool is_shown_;
+};
+
+// The folders of the files to write must be there before minutes are spent on solving.
+void CheckFolderOf(const std::filesystem::path& file) {
+  const std::filesystem::path folder = file.parent_path();
+  if (folder.empty() || std::filesystem::is_directory(folder)) return;
+  throw std::runtime_error(file.string() + ": there is no folder " + folder.string());
+}
+
+void PrintSummary(const Arguments& arguments, const nlohmann::ordered_json& report) {
+  const auto number = [&](const char* key) { return report[key].get<double>(); };
+  const auto& alignment = report["alignment"];
+  std::printf("%s: %d vertices, %d tets, %d edges\n", arguments.mesh.string().c_str(), report["vertices"].get<int>(),
+              report["tets"].get<int>(), report["edges"].get<int>());
+  std::printf("boundary   %d normals, %d frames, %d tangents, %d free\n", alignment["normals"].get<int>(),
+              alignment["frames"].get<int>(), alignment["tangents"].get<int>(), alignment["free"].get<int>());
+  std::printf("solver     degree %d, %d unknowns, %s: %s after %d iterations\n", arguments.degree,
+              report["unknowns"].get<int>(), report["solver"].get<std::string>().c_str(),
+              report["termination"].get<std::string>().c_str(), report["iterations"].get<int>());
+  std::printf("energy     %.6g; of the frames: degree 3 %.6g, degree 4 %.6g\n", number("energy"), number("energy3"),
+              number("energy4"));
+  std::printf("field      %d singular triangles, boundary error %.2g degrees (largest %.2g)\n",
+              report["singular_triangles"].get<int>(), number("boundary_rms_deg"), number("boundary_max_deg"));
+  const auto& seconds = report["seconds"];
+  std::printf("seconds    read %.2f, setup %.2f, solve %.2f, project %.2f, write %.2f\n", seconds["read"].get<double>(),
+              seconds["setup"].get<double>(), seconds["solve"].get<double>(), seconds["project"].get<double>(),
+              seconds["write"].get<double>());
+  std::printf("written    %s\n", arguments.output.string().c_str());
+}
+
+template <int kDegree>
+void RunField(const Arguments& arguments) {
+  CheckFolderOf(arguments.output);
+  CheckFolderOf(arguments.report);
+  const InterruptionGuard guard;
+  Stopwatch stopwatch;
+  std::vector<std::string> warnings;
+  const TetMesh mesh = ReadTetMesh(arguments.mesh, &warnings);
+  for (std::string& warning : MeshWarnings(InspectMesh(mesh))) warnings.push_back(std::move(warning));
+  const double read_seconds = stopwatch.Lap();
+  if (!arguments.quiet) {
+    for (const std::string& warning : warnings) {
+      std::fprintf(stderr, "%s: warning: %s\n", arguments.mesh.string().c_str(), warning.c_str());
+    }
+  }
+
+  const SolverPreset preset = arguments.solver.value_or(ChooseSolverPreset(mesh.points.size()));
+  Progress progress(&guard, !arguments.quiet && isatty(fileno(stderr)) != 0);
+  FieldOptions<kDegree> options;
+  options.feature_angle_deg = arguments.feature_angle;
+  options.seed = arguments.seed;
+  options.solver = MakeSolverOptions(preset);
+  options.solver->num_threads = arguments.threads;
+  if (arguments.max_iterations) options.solver->max_num_iterations = *arguments.max_iterations;
+  options.solver->callbacks.push_back(&progress);
+  const Field<kDegree> field = SolveField<kDegree>(mesh, options);
+  progress.Finish();
+  if (!field.summary.IsSolutionUsable()) {
+    throw std::runtime_error(arguments.mesh.string() + ": the solver failed: " + field.summary.message);
+  }
+  const FieldQuality quality = MeasureField(mesh, field.frames);
+
+  stopwatch.Lap();
+  WriteField<kDegree>(arguments.output, mesh, field.coefficients, field.frames, field.alignment.alignments);
+  const double write_seconds = stopwatch.Lap();
+
+  const nlohmann::ordered_json report = {
+      {"mesh", arguments.mesh.string()},
+      {"output", arguments.output.string()},
+      {"vertices", mesh.points.size()},
+      {"tets", mesh.tets.size()},
+      {"edges", MeshEdges(mesh).size()},
+      {"alignment",
+       {{"normals", field.alignment.num_normals},
+        {"frames", field.alignment.num_frames},
+        {"tangents", field.alignment.num_tangents},
+        {"free", field.alignment.num_free}}},
+      {"warnings", warnings},
+      {"degree", kDegree},
+      {"seed", arguments.seed},
+      {"unknowns", field.summary.num_effective_parameters_reduced},
+      {"solver", NameOf(preset)},
+      {"termination", ceres::TerminationTypeToString(field.summary.termination_type)},
+      {"iterations", field.summary.iterations.empty() ? 0 : field.summary.iterations.back().iteration},
+      {"energy", field.energy},
+      {"energy3", quality.energy3},
+      {"energy4", quality.energy4},
+      {"boundary_rms_deg", quality.boundary_rms_deg},
+      {"boundary_max_deg", quality.boundary_max_deg},
+      {"singular_triangles", quality.singular_triangles},
+      {"seconds",
+       {{"read", read_seconds},
+        {"setup", field.setup_seconds},
+        {"solve", field.summary.total_time_in_seconds},
+        {"project", field.project_seconds},
+        {"write", write_seconds}}},
+  };
+  if (!arguments.report.empty()) {
+    WriteFileAtomically(arguments.report, [&](std::ostream& stream) { stream << report.dump(2) << "\n"; });
+  }
+  if (guard.IsInterrupted()) {
+    std::fprintf(stderr, "octupole: interrupted; the field reached so far is in %s\n",
+                 arguments.output.string().c_str());
+  }
+  if (!arguments.quiet) PrintSummary(arguments, report);
+}
+
+}  // namespace
+
+void AddFieldCommand(CLI::App* app) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app->add_subcommand("field", "Compute a frame field on a tet mesh");
+  command->add_option("mesh", arguments->mesh, "Medit .mesh, legacy .vtk or Gmsh .msh, as text")
+      ->required()
+      ->option_text("MESH");
+  command->add_option("-o,--output", arguments->output, "The field, for ParaView; by default MESH_field.vtu, here")
+      ->option_text("F.vtu");
+  command->add_option("--report", arguments->report, "All figures as JSON")->option_text("F.json");
+  command->add_option("--degree", arguments->degree, "Of the harmonics: 3 (octupoles) or 4")
+      ->check(CLI::IsMember({3, 4}))
+      ->option_text("N [3]");
+  command
+      ->add_option_function<std::string>(
+          "--solver",
+          [arguments](const std::string& name) {
+            if (name != "auto") arguments->solver = kSolverOfName.at(name);
+          },
+          "cholesky, cgnr or lbfgs; auto chooses by size")
+      ->check(CLI::IsMember({"auto", "cholesky", "cgnr", "lbfgs"}))
+      ->option_text("NAME [auto]");
+  command->add_option("--feature-angle", arguments->feature_angle, "Between normals, above which an edge is sharp")
+      ->check(CLI::Range(1., 179.))
+      ->option_text("DEG [40]");
+  command->add_option("--seed", arguments->seed, "Of the random start")->option_text("N [0]");
+  command->add_option("--threads", arguments->threads, "For the solver")
+      ->check(CLI::Range(1, 1024))
+      ->option_text("N [1]");
+  command->add_option("--max-iterations", arguments->max_iterations, "Stop there, converged or not")
+      ->check(CLI::NonNegativeNumber)
+      ->option_text("N");
+  command->add_flag("--quiet", arguments->quiet, "Print errors only");
+  command->callback([arguments] {
+    if (arguments->output.empty()) arguments->output = arguments->mesh.stem().string() + "_field.vtu";
+    arguments->degree == 3 ? RunField<3>(*arguments) : RunField<4>(*arguments);
+  });
+}
+
+}  // namespace octupole

@@ -1,0 +1,23 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "field_command.h"
+
+int main(int argc, char** argv) {
+  CLI::App app("Volumetric frame fields on tetrahedral meshes.", "octupole");
+  app.set_version_flag("--version", OCTUPOLE_VERSION);
+  app.require_subcommand(1);
+  octupole::AddFieldCommand(&app);
+  // Commands run as CLI11 callbacks, so whatever they throw comes out of parse().
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    constexpr int kUsageError = 2;
+    return app.exit(error) == 0 ? 0 : kUsageError;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "octupole: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
