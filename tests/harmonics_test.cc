@@ -60,7 +60,8 @@ void ExpectHarmonic() {
   const double h = 1e-3;
   Harmonic<kDegree> laplacian = -6 * EvaluateBasis<kDegree>(at);
   for (int k = 0; k < 3; ++k) {
-    laplacian += EvaluateBasis<kDegree>(at + h * Vector3d::Unit(k)) + EvaluateBasis<kDegree>(at - h * Vector3d::Unit(k));
+    laplacian +=
+        EvaluateBasis<kDegree>(at + h * Vector3d::Unit(k)) + EvaluateBasis<kDegree>(at - h * Vector3d::Unit(k));
   }
   // Fourth derivatives of degree-4 polynomials leave h^4 / 12 times a constant.
   EXPECT_LT(laplacian.norm(), 1e-10);
@@ -69,6 +70,27 @@ void ExpectHarmonic() {
 TEST(Harmonics, HaveNoLaplacian) {
   ExpectHarmonic<3>();
   ExpectHarmonic<4>();
+}
+
+// Central differences with two steps are exact for polynomials of degree 4.
+template <int kDegree>
+void ExpectGradient() {
+  for (const Vector3d& at : {Vector3d(0.3, -0.7, 0.4), Vector3d(-1.1, 0.2, 0.9)}) {
+    for (int i = 0; i < kDimension<kDegree>; ++i) {
+      const Harmonic<kDegree> h = Harmonic<kDegree>::Unit(i);
+      const Vector3d gradient = EvaluateGradient<kDegree>(h, at);
+      for (int k = 0; k < 3; ++k) {
+        const auto f = [&](double t) { return h.dot(EvaluateBasis<kDegree>(at + t * Vector3d::Unit(k))); };
+        EXPECT_NEAR(gradient[k], (8 * (f(1) - f(-1)) - (f(2) - f(-2))) / 12, 1e-12)
+            << "m = " << i - kDegree << ", " << k;
+      }
+    }
+  }
+}
+
+TEST(Harmonics, HaveTheStatedGradient) {
+  ExpectGradient<3>();
+  ExpectGradient<4>();
 }
 
 TEST(Harmonics, AreHomogeneous) {
@@ -104,8 +126,8 @@ TEST(ReferenceHarmonic, IsTheSumOfFourthPowersInDegree4) {
   // x^4 + y^4 + z^4 - 3/5 r^4 is the harmonic part; its norm on the sphere is 4/5 sqrt(4 pi / 21).
   for (const Vector3d& at : {Vector3d(0.3, -0.7, 0.4), Vector3d(1, 2, -0.5)}) {
     const double harmonic_part = at.array().pow(4).sum() - 0.6 * std::pow(at.squaredNorm(), 2);
-    EXPECT_NEAR(ReferenceHarmonic<4>().dot(EvaluateBasis<4>(at)), harmonic_part * 5 / 4 * std::sqrt(21 / (4 * EIGEN_PI)),
-                1e-13);
+    EXPECT_NEAR(ReferenceHarmonic<4>().dot(EvaluateBasis<4>(at)),
+                harmonic_part * 5 / 4 * std::sqrt(21 / (4 * EIGEN_PI)), 1e-13);
   }
   EXPECT_NEAR(ReferenceHarmonic<4>().norm(), 1, 1e-15);
 }

@@ -7,6 +7,7 @@
 #include <set>
 #include <vector>
 
+#include "octupole/frame.h"
 #include "random_inputs.h"
 
 namespace octupole {
@@ -33,6 +34,18 @@ TEST(OctahedralGroup, MultipliesAsItsMatricesDo) {
   }
 }
 
+// The even ones leave the reference octupole alone, the others turn it into its negative.
+TEST(OctahedralGroup, HasTheSubgroupA4) {
+  int num_even = 0;
+  for (const auto& g : OctahedralGroup()) {
+    const Octupole rotated = HarmonicFromFrame<3>(g.matrix());
+    EXPECT_LT((rotated - (g.IsEven() ? 1 : -1) * ReferenceHarmonic<3>()).norm(), 1e-14);
+    num_even += g.IsEven();
+    for (const auto& h : OctahedralGroup()) EXPECT_EQ((g * h).IsEven(), g.IsEven() == h.IsEven());
+  }
+  EXPECT_EQ(num_even, 12);
+}
+
 TEST(MatchFrames, FindsTheElementBetweenTwoCopiesOfAFrame) {
   std::mt19937 generator(1);
   for (const auto& g : OctahedralGroup()) {
@@ -40,6 +53,18 @@ TEST(MatchFrames, FindsTheElementBetweenTwoCopiesOfAFrame) {
     // Any rotation by less than 22.5 degrees leaves g the best match.
     const Matrix3d turn = Eigen::AngleAxisd(0.39, RandomDirection(&generator)).toRotationMatrix();
     EXPECT_EQ(MatchFrames(a, turn * a * g.matrix()), g);
+  }
+}
+
+// So the octupoles tell whether a match is odd (theory.md, section 6). At 45 degrees about an axis two matches tie.
+TEST(MatchFrames, ParityIsTheSignOfTheOctupolesProductBelow45Degrees) {
+  std::mt19937 generator(3);
+  for (int i = 0; i < 20000; ++i) {
+    const Matrix3d a = RandomFrame(&generator);
+    const auto& g = OctahedralGroup()[i % 24];
+    const double angle = EIGEN_PI / 4 * (i % 1000) / 1000;
+    const Matrix3d b = Eigen::AngleAxisd(angle, RandomDirection(&generator)).toRotationMatrix() * a * g.matrix();
+    EXPECT_EQ(HarmonicFromFrame<3>(a).dot(HarmonicFromFrame<3>(b)) > 0, MatchFrames(a, b).IsEven());
   }
 }
 

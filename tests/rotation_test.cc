@@ -82,6 +82,32 @@ TYPED_TEST(RotationTest, GeneratorsCommuteAsRotationsDo) {
   EXPECT_LT((casimir + l * (l + 1) * HarmonicMatrix<l>::Identity()).norm(), 1e-13);
 }
 
+TYPED_TEST(RotationTest, TakesAQuaternionOfEitherSign) {
+  constexpr int l = TypeParam::value;
+  std::mt19937 generator(3);
+  for (int i = 0; i < 100; ++i) {
+    const Eigen::Quaterniond q = RandomRotation(&generator);
+    const HarmonicMatrix<l> expected = HarmonicRotation<l>(q.toRotationMatrix());
+    EXPECT_LT((HarmonicRotation<l>(q) - expected).norm(), 1e-14);
+    EXPECT_LT((HarmonicRotation<l>(Eigen::Quaterniond(-q.coeffs())) - expected).norm(), 1e-14);
+  }
+}
+
+TYPED_TEST(RotationTest, RefusesQuaternionsThatAreNotUnit) {
+  constexpr int l = TypeParam::value;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const Eigen::Quaterniond& bad :
+       {Eigen::Quaterniond(0, 0, 0, 0), Eigen::Quaterniond(1, 0, 0, 0.01), Eigen::Quaterniond(nan, 0, 0, 1)}) {
+    EXPECT_THROW(HarmonicRotation<l>(bad), std::invalid_argument);
+  }
+  try {
+    HarmonicRotation<l>(Eigen::Quaterniond(2, 0, 0, 1));
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), testing::StrEq("HarmonicRotation: not a unit quaternion: [2, 0, 0, 1]"));
+  }
+}
+
 TYPED_TEST(RotationTest, RefusesWhatIsNoRotation) {
   constexpr int l = TypeParam::value;
   const Matrix3d reflection = Vector3d(1, 1, -1).asDiagonal();

@@ -17,10 +17,17 @@ Harmonic<kDegree> HarmonicFromFrame(const Eigen::Matrix3d& frame);
 /// The frame whose harmonic is nearest to h: the global maximum of h . D(R) reference over all rotations R
 /// (theory.md, section 5). Orthonormal to rounding. In degree 3 the signs are such that h . HarmonicFromFrame(frame) > 0.
 ///
-/// Newton's method on the rotation group from every local maximum of a fixed covering of it.
+/// Newton's method on the rotation group, from the best rotation of a fixed covering of it, and, unless the maximum found is
+/// within the manifold's reach of h and therefore the global one, from every local maximum of the covering. When several
+/// frames are equally near, it is one of them, always the same for the same h.
 /// \throw std::invalid_argument when h is zero or not finite: no frame is nearest then.
 template <int kDegree>
 Eigen::Matrix3d NearestFrame(const Harmonic<kDegree>& h);
+
+/// The distance from h to the nearest unit octahedral harmonic, |h - HarmonicFromFrame(NearestFrame(h))|.
+/// \throw std::invalid_argument when h is zero or not finite.
+template <int kDegree>
+double DistanceToFrames(const Harmonic<kDegree>& h);
 
 /// The permanent of a 3 x 3 matrix. For unit semisymmetric octupoles a, b of the frames A, B it is a . b, with
 /// Q = A^T B (theory.md, section 3).

@@ -26,6 +26,10 @@ using Hexadecapole = Harmonic<4>;
 template <int kDegree>
 Harmonic<kDegree> EvaluateBasis(const Eigen::Vector3d& direction);
 
+/// The gradient at `point` of the homogeneous polynomial of a harmonic h, h.dot(EvaluateBasis<kDegree>(x)). Degrees 3 and 4.
+template <int kDegree>
+Eigen::Vector3d EvaluateGradient(const Harmonic<kDegree>& h, const Eigen::Vector3d& point);
+
 /// The unit harmonic of the frame of coordinate axes: Y_{3,-2} (that is c xyz) in degree 3, and
 /// sqrt(7/12) Y_{4,0} + sqrt(5/12) Y_{4,4} in degree 4. Degrees 3 and 4.
 template <int kDegree>

@@ -32,6 +32,11 @@ const std::array<HarmonicMatrix<kDegree>, 5>& Quadrics() {
   return quadrics;
 }
 
+std::array<HarmonicMatrix<3>, 3> PaperQuadrics() {
+  const auto& quadrics = Quadrics<3>();
+  return {quadrics[0], std::sqrt(2.) * quadrics[2], std::sqrt(2.) * quadrics[1]};
+}
+
 template const std::array<HarmonicMatrix<3>, 5>& Quadrics<3>();
 template const std::array<HarmonicMatrix<4>, 5>& Quadrics<4>();
 

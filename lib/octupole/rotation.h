@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 
 #include "octupole/harmonics.h"
@@ -19,6 +20,11 @@ using HarmonicMatrix = Eigen::Matrix<double, kDimension<kDegree>, kDimension<kDe
 /// \throw std::invalid_argument when `rotation` is not a rotation (orthonormal to 1e-6 and right-handed).
 template <int kDegree>
 HarmonicMatrix<kDegree> HarmonicRotation(const Eigen::Matrix3d& rotation);
+
+/// The same for the rotation of a unit quaternion; q and -q give the same.
+/// \throw std::invalid_argument when the squared norm differs from 1 by more than 1e-6.
+template <int kDegree>
+HarmonicMatrix<kDegree> HarmonicRotation(const Eigen::Quaterniond& rotation);
 
 /// The generators G_x, G_y, G_z of D: D(rotation by t about axis k) = exp(t G_k), right-handed. Antisymmetric, with
 /// G_x G_y - G_y G_x = G_z and cyclically. Degrees 3 and 4.
