@@ -68,10 +68,12 @@ template <int kDegree>
 void Register(const std::string& degree) {
   using benchmark::RegisterBenchmark;
   for (benchmark::internal::Benchmark* registered :
-       {RegisterBenchmark(("smoothness autodiff " + degree).c_str(), EdgeTerms<kDegree>, SmoothnessCost<kDegree>::Create),
+       {RegisterBenchmark(("smoothness autodiff " + degree).c_str(), EdgeTerms<kDegree>,
+                          SmoothnessCost<kDegree>::Create),
         RegisterBenchmark(("smoothness analytic " + degree).c_str(), EdgeTerms<kDegree>,
                           AnalyticSmoothnessCost<kDegree>::Create),
-        RegisterBenchmark(("deviation autodiff " + degree).c_str(), VertexTerms<kDegree>, DeviationCost<kDegree>::Create),
+        RegisterBenchmark(("deviation autodiff " + degree).c_str(), VertexTerms<kDegree>,
+                          DeviationCost<kDegree>::Create),
         RegisterBenchmark(("deviation analytic " + degree).c_str(), VertexTerms<kDegree>,
                           AnalyticDeviationCost<kDegree>::Create),
         RegisterBenchmark(("field energy " + degree).c_str(), FieldEnergy<kDegree>)}) {

@@ -1,5 +1,5 @@
-// How fast is the projection to the nearest frame, for harmonics at a distance of 0.1 from the nearest octahedral one and
-// for arbitrary ones?
+// How fast is the projection to the nearest frame, for harmonics at a distance of 0.1 from the nearest octahedral one
+// and for arbitrary ones?
 
 #include <benchmark/benchmark.h>
 

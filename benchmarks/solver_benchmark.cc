@@ -1,5 +1,5 @@
-// Ceres' solvers on one field energy: where one preset overtakes another, for ChooseSolverPreset. A ball with an aligned
-// boundary, from one random start; the energies reached stand beside the times.
+// Ceres' solvers on one field energy: where one preset overtakes another, for ChooseSolverPreset. A ball with an
+// aligned boundary, from one random start; the energies reached stand beside the times.
 #include <benchmark/benchmark.h>
 
 #include <string>
@@ -41,9 +41,9 @@ void Solve(benchmark::State& state, SolverPreset preset) {
 int main(int argc, char** argv) {
   using octupole::SolverPreset;
   for (const int cells : {5, 6, 8, 10, 12, 16, 22}) {
-    for (const auto& [name, preset, max_cells] : {std::tuple("cholesky", SolverPreset::kSparseCholesky, 12),
-                                                  std::tuple("cgnr", SolverPreset::kConjugateGradients, 16),
-                                                  std::tuple("lbfgs", SolverPreset::kLbfgs, 22)}) {
+    for (const auto& [name, preset, max_cells] :
+         {std::tuple("cholesky", SolverPreset::kSparseCholesky, 12),
+          std::tuple("cgnr", SolverPreset::kConjugateGradients, 16), std::tuple("lbfgs", SolverPreset::kLbfgs, 22)}) {
       // Beyond these sizes a run takes minutes.
       if (cells > max_cells) continue;
       benchmark::RegisterBenchmark(name, octupole::Solve, preset)

@@ -52,8 +52,7 @@ int main() {
       for (const int b : tet)
         if (a < b) edges.emplace(a, b);
   for (const auto& [a, b] : edges)
-    problem.AddResidualBlock(octupole::SmoothnessCost<3>::Create(1), nullptr, field[a].data(),
-                             field[b].data());
+    problem.AddResidualBlock(octupole::SmoothnessCost<3>::Create(1), nullptr, field[a].data(), field[b].data());
 
   // Hard alignment with the normal of the side z = 0.
   for (std::size_t v = 0; v < field.size(); ++v) {
@@ -70,10 +69,8 @@ int main() {
   ceres::Solve(options, &problem, &summary);
 
   const Eigen::Matrix3d frame = octupole::NearestFrame<3>(field.back());
-  std::printf("%s\nenergy %g\nframe at the far corner:\n", summary.BriefReport().c_str(),
-              2 * summary.final_cost);
-  for (int k = 0; k < 3; ++k)
-    std::printf("  axis (%7.4f, %7.4f, %7.4f)\n", frame(0, k), frame(1, k), frame(2, k));
+  std::printf("%s\nenergy %g\nframe at the far corner:\n", summary.BriefReport().c_str(), 2 * summary.final_cost);
+  for (int k = 0; k < 3; ++k) std::printf("  axis (%7.4f, %7.4f, %7.4f)\n", frame(0, k), frame(1, k), frame(2, k));
   // The constant field has no energy, and z is an axis of it everywhere.
   return 2 * summary.final_cost < 1e-8 && frame.row(2).cwiseAbs().maxCoeff() > 1 - 1e-8 ? 0 : 1;
 }

@@ -1,14 +1,14 @@
-// The numerical example of the paper, its figure 3: gradient descent with a constant step on the penalty p, from one octupole
-// to a semisymmetric one.
+// The numerical example of the paper, its figure 3: gradient descent with a constant step on the penalty p, from one
+// octupole to a semisymmetric one.
 //
-// The figure does not follow from the weights that the paper states, w1 = 5 and w2 = 2.5. Across the manifold p then has the
-// curvatures 8 w1 = 40 and 160 w2 = 400, so that no constant step makes the error shrink by more than
-// (400 - 40) / (400 + 40) = 0.818 per iteration in the end; in the figure it shrinks by 0.642. The start, step and w2 below
+// The figure does not follow from the weights that the paper states, w1 = 5 and w2 = 2.5. Across the manifold p then
+// has the curvatures 8 w1 = 40 and 160 w2 = 400, so that no constant step makes the error shrink by more than (400 -
+// 40) / (400 + 40) = 0.818 per iteration in the end; in the figure it shrinks by 0.642. The start, step and w2 below
 // reproduce the figure (docs/theory.md, "Errata of the paper", item 3).
 //
 // Usage: figure3 [FILE.csv]
-// Fails unless the descent, also from a rotated start, is within 1 % of the paper's first 19 rows; the last two are printed
-// with fewer digits there. Writes the curves beside the paper's if a file is given.
+// Fails unless the descent, also from a rotated start, is within 1 % of the paper's first 19 rows; the last two are
+// printed with fewer digits there. Writes the curves beside the paper's if a file is given.
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // Surfaces and points behind the pictures of docs/figures/: the paper's figures 1, 2 and 5.
 //
 // Usage: pictures [FOLDER]
-// Writes basis_-3.vtp to basis_3.vtp, reference.vtp, rotated.vtp, hexadecapole.vtp, and zone_vertices.csv: the vertices of
-// the truncated cube and, for each, the number of its class of glued vertices. scripts/figures draws them.
+// Writes basis_-3.vtp to basis_3.vtp, reference.vtp, rotated.vtp, hexadecapole.vtp, and zone_vertices.csv: the vertices
+// of the truncated cube and, for each, the number of its class of glued vertices. scripts/figures draws them.
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>

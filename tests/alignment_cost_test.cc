@@ -22,24 +22,23 @@ TYPED_TEST_SUITE(AlignmentCostTest, Degrees);
 TYPED_TEST(AlignmentCostTest, DerivativesAgreeAndAreFiniteAtZero) {
   constexpr int l = TypeParam::value;
   std::mt19937 generator(1);
-  for (const Alignment& alignment : {Alignment(), Alignment::Axis(RandomDirection(&generator)),
-                                     Alignment::Frame(RandomFrame(&generator))}) {
+  for (const Alignment& alignment :
+       {Alignment(), Alignment::Axis(RandomDirection(&generator)), Alignment::Frame(RandomFrame(&generator))}) {
     const std::unique_ptr<ceres::CostFunction> cost(AlignmentCost<l>::Create(alignment, kWeight));
     ExpectJacobiansAreDerivatives(*cost, {RandomHarmonic<l>(&generator)});
     ExpectFinite(*cost, {Harmonic<l>::Zero()});
   }
 }
 
-// Frames that have the axis cost nothing; others cost what the harmonic of the axis-turned frame says: the squared distance
-// to the subspace, here by minimising over a fine set of its points.
+// Frames that have the axis cost nothing; others cost what the harmonic of the axis-turned frame says: the squared
+// distance to the subspace, here by minimising over a fine set of its points.
 TYPED_TEST(AlignmentCostTest, IsZeroExactlyOnAlignedFrames) {
   constexpr int l = TypeParam::value;
   std::mt19937 generator(2);
   for (int i = 0; i < 50; ++i) {
     const Eigen::Matrix3d frame = RandomFrame(&generator);
     for (int k = 0; k < 3; ++k) {
-      const std::unique_ptr<ceres::CostFunction> cost(
-          AlignmentCost<l>::Create(Alignment::Axis(frame.col(k)), kWeight));
+      const std::unique_ptr<ceres::CostFunction> cost(AlignmentCost<l>::Create(Alignment::Axis(frame.col(k)), kWeight));
       EXPECT_LT(Evaluate(*cost, {HarmonicFromFrame<l>(frame)}).residuals.norm(), 1e-13);
     }
     const std::unique_ptr<ceres::CostFunction> prescribed(AlignmentCost<l>::Create(Alignment::Frame(frame), kWeight));

@@ -17,8 +17,7 @@ int NumFiles(const TemporaryFolder& folder) {
 }
 
 std::string WriteMessage(const std::filesystem::path& path, const std::string& text) {
-  return MessageOf<std::runtime_error>(
-      [&] { WriteFileAtomically(path, [&](std::ostream& out) { out << text; }); });
+  return MessageOf<std::runtime_error>([&] { WriteFileAtomically(path, [&](std::ostream& out) { out << text; }); });
 }
 
 TEST(WriteFileAtomically, WritesAndReplaces) {
@@ -66,8 +65,7 @@ TEST(WriteFileAtomically, NamesWhatIsInTheWay) {
   EXPECT_EQ(WriteMessage(folder / "missing/a.txt", "x"),
             (folder / "missing/a.txt").string() + ": cannot be written: No such file or directory");
   std::filesystem::create_directory(folder / "b");
-  EXPECT_EQ(WriteMessage(folder / "b", "x"),
-            (folder / "b").string() + ": cannot be written: Is a directory");
+  EXPECT_EQ(WriteMessage(folder / "b", "x"), (folder / "b").string() + ": cannot be written: Is a directory");
   EXPECT_EQ(WriteMessage("/dev/null", "x"), "/dev/null: cannot be written: not a regular file");
   EXPECT_EQ(NumFiles(folder), 1);
 }

@@ -23,7 +23,8 @@ double Radians(double degrees) { return degrees * EIGEN_PI / 180; }
 // A 4 x 4 x 4 grid, its cross-section a parallelogram with this angle at the edge x = y = 0.
 TetMesh ShearedBox(double angle_deg) {
   TetMesh mesh = MakeBoxMesh({4, 4, 4}, {1, 1, 1});
-  for (Vector3d& p : mesh.points) p = {p.x() + std::cos(Radians(angle_deg)) * p.y(), std::sin(Radians(angle_deg)) * p.y(), p.z()};
+  for (Vector3d& p : mesh.points)
+    p = {p.x() + std::cos(Radians(angle_deg)) * p.y(), std::sin(Radians(angle_deg)) * p.y(), p.z()};
   return mesh;
 }
 

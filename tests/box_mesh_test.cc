@@ -51,8 +51,7 @@ TEST(MakeBoxMesh, RefusesBadArguments) {
   EXPECT_EQ(message({1, 1, 1}, {1, 1, -2}), "MakeBoxMesh: the size along z is -2.000000");
   EXPECT_EQ(message({1, 1, 1}, {std::numeric_limits<double>::quiet_NaN(), 1, 1}),
             "MakeBoxMesh: the size along x is nan");
-  EXPECT_EQ(message({2000, 2000, 2000}, {1, 1, 1}),
-            "MakeBoxMesh: 2000 x 2000 x 2000 cells are too many");
+  EXPECT_EQ(message({2000, 2000, 2000}, {1, 1, 1}), "MakeBoxMesh: 2000 x 2000 x 2000 cells are too many");
 }
 
 }  // namespace

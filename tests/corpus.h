@@ -44,8 +44,8 @@ inline std::vector<Row> ReadManifest(const std::filesystem::path& path) {
   return rows;
 }
 
-/// Tests of a corpus of good and damaged meshes. OCTUPOLE_CORPUS names its folder, with the subfolders bad/ and tet/ and a
-/// manifest.tsv in each.
+/// Tests of a corpus of good and damaged meshes. OCTUPOLE_CORPUS names its folder, with the subfolders bad/ and tet/
+/// and a manifest.tsv in each.
 class CorpusTest : public testing::Test {
  protected:
   void SetUp() override {

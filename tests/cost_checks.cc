@@ -34,8 +34,8 @@ void ExpectFinite(const ceres::CostFunction& cost, const std::vector<Eigen::Vect
   for (const auto& jacobian : evaluation.jacobians) EXPECT_TRUE(jacobian.allFinite()) << jacobian;
 }
 
-void ExpectJacobiansAreDerivatives(const ceres::CostFunction& cost,
-                                          const std::vector<Eigen::VectorXd>& parameters, double tolerance) {
+void ExpectJacobiansAreDerivatives(const ceres::CostFunction& cost, const std::vector<Eigen::VectorXd>& parameters,
+                                   double tolerance) {
   const Evaluation evaluation = Evaluate(cost, parameters);
   const auto residuals = [&](std::size_t block, Eigen::Index i, double step) {
     std::vector<Eigen::VectorXd> moved = parameters;
@@ -56,7 +56,7 @@ void ExpectJacobiansAreDerivatives(const ceres::CostFunction& cost,
 }
 
 void ExpectSame(const ceres::CostFunction& one, const ceres::CostFunction& other,
-                       const std::vector<Eigen::VectorXd>& parameters) {
+                const std::vector<Eigen::VectorXd>& parameters) {
   const Evaluation a = Evaluate(one, parameters), b = Evaluate(other, parameters);
   EXPECT_LE((a.residuals - b.residuals).norm(), 1e-13 * (1 + b.residuals.norm()));
   for (std::size_t block = 0; block < parameters.size(); ++block) {

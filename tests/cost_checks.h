@@ -21,8 +21,8 @@ Evaluation Evaluate(const ceres::CostFunction& cost, const std::vector<Eigen::Ve
 /// Residuals and Jacobians are finite.
 void ExpectFinite(const ceres::CostFunction& cost, const std::vector<Eigen::VectorXd>& parameters);
 
-/// The Jacobians are the derivatives of the residuals, by central differences with Richardson's extrapolation: accurate to
-/// about 1e-11 for parameters and derivatives of order one, hence the tolerance.
+/// The Jacobians are the derivatives of the residuals, by central differences with Richardson's extrapolation: accurate
+/// to about 1e-11 for parameters and derivatives of order one, hence the tolerance.
 void ExpectJacobiansAreDerivatives(const ceres::CostFunction& cost, const std::vector<Eigen::VectorXd>& parameters,
                                    double tolerance = 1e-8);
 

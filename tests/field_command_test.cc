@@ -43,7 +43,8 @@ std::string Bracket() { return Quoted(OCTUPOLE_SOURCE_DIR "/examples/data/bracke
 json ReadReport(const std::filesystem::path& path) { return json::parse(ReadText(path)); }
 
 json ReadField(const std::filesystem::path& field, const std::string& mesh) {
-  const Outcome outcome = Shell("/usr/bin/python3 " OCTUPOLE_SOURCE_DIR "/tests/read_field.py " + Quoted(field) + " " + mesh);
+  const Outcome outcome =
+      Shell("/usr/bin/python3 " OCTUPOLE_SOURCE_DIR "/tests/read_field.py " + Quoted(field) + " " + mesh);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   return json::parse(outcome.out);
 }
@@ -67,9 +68,9 @@ TEST(FieldCommand, WritesFieldReportAndSummary) {
     EXPECT_THAT(outcome.out, HasSubstr((folder / "field.vtu").string()));
 
     const json report = ReadReport(folder / "report.json");
-    for (const char* key : {"vertices", "tets", "edges", "degree", "unknowns", "solver", "termination", "iterations",
-                            "energy", "energy3", "energy4", "boundary_rms_deg", "boundary_max_deg",
-                            "singular_triangles", "alignment", "warnings"}) {
+    for (const char* key :
+         {"vertices", "tets", "edges", "degree", "unknowns", "solver", "termination", "iterations", "energy", "energy3",
+          "energy4", "boundary_rms_deg", "boundary_max_deg", "singular_triangles", "alignment", "warnings"}) {
       EXPECT_TRUE(report.contains(key)) << key;
     }
     for (const char* key : {"read", "setup", "solve", "project", "write"}) {
@@ -103,14 +104,13 @@ TEST(FieldCommand, TakesEverySolverAndIsQuietWhenAsked) {
   WriteText(folder / "tet.mesh",
             "MeshVersionFormatted 1\nDimension 3\nVertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
             "Tetrahedra\n1\n1 2 3 4 7\nEnd\n");
-  for (const std::string solver : {"auto", "cholesky", "cgnr", "lbfgs"}) {
-    const Outcome outcome = RunField(Quoted(folder / "tet.mesh") + " --quiet --threads 2 --seed 5 --solver " + solver +
-                                     " --output " + Quoted(folder / "field.vtu") + " --report " +
-                                     Quoted(folder / "report.json"));
+  for (const std::string solver : {"fast", "cholesky", "cgnr", "lbfgs"}) {
+    const Outcome outcome =
+        RunField(Quoted(folder / "tet.mesh") + " --quiet --threads 2 --seed 5 --solver " + solver + " --output " +
+                 Quoted(folder / "field.vtu") + " --report " + Quoted(folder / "report.json"));
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(outcome.out + outcome.err, IsEmpty());
-    const std::string used = ReadReport(folder / "report.json")["solver"];
-    EXPECT_TRUE(used == solver || solver == "auto") << used;
+    EXPECT_EQ(ReadReport(folder / "report.json")["solver"], solver);
   }
   EXPECT_EQ(ReadField(folder / "field.vtu", Quoted(folder / "tet.mesh"))["regions"], json({7}));
 }
@@ -138,13 +138,15 @@ TEST(FieldCommand, RepeatsWithItsSeed) {
 
 TEST(FieldCommand, RefusesBadInputInOneLineAndTouchesNothing) {
   const TemporaryFolder folder;
-  const std::string output = " --output " + Quoted(folder / "field.vtu") + " --report " + Quoted(folder / "report.json");
+  const std::string output =
+      " --output " + Quoted(folder / "field.vtu") + " --report " + Quoted(folder / "report.json");
   WriteText(folder / "field.vtu", "precious");
   WriteText(folder / "bad.mesh", "MeshVersionFormatted 1\nDimension 3\nVertices 1\n0 0 zero 0\n");
   const auto contents = ContentsOf(folder.path());
-  for (const auto& [mesh, cause] : {std::pair(folder / "bad.mesh", "bad.mesh:4: 'zero' where a coordinate was expected"),
-                                    std::pair(folder / "missing.mesh", "missing.mesh: "),
-                                    std::pair(folder / "part.step", "part.step: "), std::pair(folder.path(), ": ")}) {
+  for (const auto& [mesh, cause] :
+       {std::pair(folder / "bad.mesh", "bad.mesh:4: 'zero' where a coordinate was expected"),
+        std::pair(folder / "missing.mesh", "missing.mesh: "), std::pair(folder / "part.step", "part.step: "),
+        std::pair(folder.path(), ": ")}) {
     const Outcome outcome = RunField(Quoted(mesh) + output);
     EXPECT_EQ(outcome.exit_code, 1);
     EXPECT_THAT(outcome.out, IsEmpty());
@@ -180,9 +182,9 @@ TEST(FieldCommand, RefusesBadUsage) {
 TEST(FieldCommand, WritesTheFieldReachedWhenInterrupted) {
   const TemporaryFolder folder;
   // Sparse Cholesky takes minutes on this mesh; an iteration takes seconds.
-  const Outcome outcome = Shell("timeout --preserve-status --signal=INT 1 " OCTUPOLE_COMMAND " field " + Bracket() +
-                                " --solver cgnr --output " + Quoted(folder / "field.vtu") + " --report " +
-                                Quoted(folder / "report.json"));
+  const Outcome outcome =
+      Shell("timeout --preserve-status --signal=INT 1 " OCTUPOLE_COMMAND " field " + Bracket() +
+            " --solver cgnr --output " + Quoted(folder / "field.vtu") + " --report " + Quoted(folder / "report.json"));
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("interrupted"));
   EXPECT_EQ(ReadReport(folder / "report.json")["termination"], "USER_SUCCESS");
@@ -198,8 +200,7 @@ TEST_F(FieldCommandCorpus, GoesThroughBadMeshesAsTheManifestExpects) {
     const std::filesystem::path mesh = folder_ / "bad" / row.at("name");
     SCOPED_TRACE(mesh);
     const TemporaryFolder folder;
-    const Outcome outcome =
-        RunField(Quoted(mesh) + " --max-iterations 10 --output " + Quoted(folder / "field.vtu"));
+    const Outcome outcome = RunField(Quoted(mesh) + " --max-iterations 10 --output " + Quoted(folder / "field.vtu"));
     if (outcome.exit_code == 0) {
       EXPECT_NE(row.at("expect"), "reject");
       EXPECT_EQ(ContentsOf(folder.path()), std::set<std::string>({"field.vtu"}));
@@ -234,7 +235,8 @@ TEST_F(FieldCommandCorpus, SatisfiesTheJudgeOnEveryTetMesh) {
     EXPECT_LT(judge["orthonormality"], 1e-9);
     EXPECT_LT(judge["boundary_max_deg"], 1e-4);
     EXPECT_LT(report["boundary_max_deg"], 1e-4);
-    for (const char* key : {"vertices", "tets", "edges", "singular_triangles"}) EXPECT_EQ(report[key], judge[key]) << key;
+    for (const char* key : {"vertices", "tets", "edges", "singular_triangles"})
+      EXPECT_EQ(report[key], judge[key]) << key;
     for (const char* key : {"energy3", "energy4", "boundary_rms_deg", "boundary_max_deg"}) {
       EXPECT_TRUE(Agree(report[key], judge[key])) << key << ": " << report[key] << " against " << judge[key];
     }

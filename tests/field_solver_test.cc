@@ -51,7 +51,8 @@ class BoxTest : public testing::TestWithParam<SolverPreset> {};
 
 // The field of a box is constant, from every start.
 TEST_P(BoxTest, HasTheConstantFieldFrom20Seeds) {
-  const double num_edges = static_cast<double>(MakeFieldGraph(Box(), std::vector<Alignment>(Box().points.size())).edges.size());
+  const double num_edges =
+      static_cast<double>(MakeFieldGraph(Box(), std::vector<Alignment>(Box().points.size())).edges.size());
   for (std::uint32_t seed = 0; seed < 20; ++seed) {
     const Field<3> field = SolveField<3>(Box(), OptionsOf<3>(GetParam(), seed));
     EXPECT_EQ(field.summary.termination_type, ceres::CONVERGENCE) << field.summary.message;

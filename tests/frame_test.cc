@@ -140,9 +140,9 @@ TYPED_TEST(FrameTest, NearestFrameIsGlobal) {
   }
 }
 
-// What NearestFrame takes for granted: below this distance a stationary frame is the nearest of all. The manifold is one
-// orbit, so that its reach (Federer 1959, theorem 4.18) is the least of |y - x|^2 / (2 |part of y - x normal to it at x|)
-// over its points y, for any one point x.
+// What NearestFrame takes for granted: below this distance a stationary frame is the nearest of all. The manifold is
+// one orbit, so that its reach (Federer 1959, theorem 4.18) is the least of |y - x|^2 / (2 |part of y - x normal to it
+// at x|) over its points y, for any one point x.
 TYPED_TEST(FrameTest, ReachIsTwoThirdsInDegree3AndTheRootOf5Over12InDegree4) {
   constexpr int l = TypeParam::value;
   const Harmonic<l> x = ReferenceHarmonic<l>();
@@ -190,7 +190,8 @@ TYPED_TEST(FrameTest, NearestFrameOfATieIsOneOfTheTied) {
   for (int i = 0; i < 100; ++i) {
     const Matrix3d a = RandomFrame(&generator);
     const Matrix3d b = a * Eigen::AngleAxisd(EIGEN_PI / 4, Vector3d::UnitZ()).toRotationMatrix();
-    // In degree 3 an eighth turn is a right angle between the octupoles, in degree 4 it is the opposite point of a circle.
+    // In degree 3 an eighth turn is a right angle between the octupoles, in degree 4 it is the opposite point of a
+    // circle.
     const Harmonic<l> h = HarmonicFromFrame<l>(a) + HarmonicFromFrame<l>(b);
     const Matrix3d nearest = NearestFrame<l>(h);
     const double found = h.dot(HarmonicFromFrame<l>(nearest));
@@ -199,8 +200,8 @@ TYPED_TEST(FrameTest, NearestFrameOfATieIsOneOfTheTied) {
   }
 }
 
-// A circle of frames is equally near to a harmonic that turns about z leave alone, and they all are to the eye of Newton's
-// method: it must not lose its way along the circle.
+// A circle of frames is equally near to a harmonic that turns about z leave alone, and they all are to the eye of
+// Newton's method: it must not lose its way along the circle.
 TYPED_TEST(FrameTest, NearestFrameOfAnInvariantHarmonicIsAMaximum) {
   constexpr int l = TypeParam::value;
   const BruteForce<l> brute_force;
@@ -229,9 +230,12 @@ TYPED_TEST(FrameTest, ErrorsNameTheFunctionAndTheValue) {
   constexpr int l = TypeParam::value;
   const Harmonic<l> zero = Harmonic<l>::Zero();
   const Matrix3d reflection = Vector3d(1, 1, -1).asDiagonal();
-  EXPECT_THAT([&] { NearestFrame<l>(zero); }, ThrowsMessage<std::invalid_argument>(StartsWith("NearestFrame: no frame is nearest to [0 0 0")));
-  EXPECT_THAT([&] { DistanceToFrames<l>(zero); }, ThrowsMessage<std::invalid_argument>(StartsWith("DistanceToFrames: no frame is nearest to [0 0 0")));
-  EXPECT_THAT([&] { HarmonicFromFrame<l>(reflection); }, ThrowsMessage<std::invalid_argument>(StartsWith("HarmonicFromFrame: not a rotation: [1, 0, 0")));
+  EXPECT_THAT([&] { NearestFrame<l>(zero); },
+              ThrowsMessage<std::invalid_argument>(StartsWith("NearestFrame: no frame is nearest to [0 0 0")));
+  EXPECT_THAT([&] { DistanceToFrames<l>(zero); },
+              ThrowsMessage<std::invalid_argument>(StartsWith("DistanceToFrames: no frame is nearest to [0 0 0")));
+  EXPECT_THAT([&] { HarmonicFromFrame<l>(reflection); },
+              ThrowsMessage<std::invalid_argument>(StartsWith("HarmonicFromFrame: not a rotation: [1, 0, 0")));
 }
 
 // theory.md, section 3: closed forms in Q = A^T B.

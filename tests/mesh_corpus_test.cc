@@ -25,8 +25,7 @@ TEST_F(MeshCorpus, BadMeshesGoAsTheManifestExpects) {
     const std::string& expect = row.at("expect");
     SCOPED_TRACE(name);
     TetMesh mesh;
-    const std::string message =
-        MessageOf<std::runtime_error>([&] { mesh = ReadTetMesh(folder_ / "bad" / name); });
+    const std::string message = MessageOf<std::runtime_error>([&] { mesh = ReadTetMesh(folder_ / "bad" / name); });
     if (!message.empty()) {
       EXPECT_NE(expect, "accept") << message;
       EXPECT_NE(message.find(name + ":"), std::string::npos) << message;
@@ -37,9 +36,7 @@ TEST_F(MeshCorpus, BadMeshesGoAsTheManifestExpects) {
     EXPECT_NO_THROW(CheckTetMesh(mesh));
     EXPECT_EQ(InspectMesh(mesh).tets, static_cast<int>(mesh.tets.size()));
     if (row.at("parsed").substr(0, 2) == "V ") {
-      EXPECT_EQ(
-          "V " + std::to_string(mesh.points.size()) + " T " + std::to_string(mesh.tets.size()),
-          row.at("parsed"));
+      EXPECT_EQ("V " + std::to_string(mesh.points.size()) + " T " + std::to_string(mesh.tets.size()), row.at("parsed"));
     }
   }
 }

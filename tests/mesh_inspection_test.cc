@@ -57,9 +57,7 @@ TEST(InspectMesh, AllTetsInverted) {
 TEST(InspectMesh, ZeroVolumeIsRelative) {
   for (const double scale : {1e-9, 1.0, 1e9}) {
     for (const double height : {1e-14, 1e-9}) {
-      TetMesh mesh{{{0.1, 0.2, 0.3}, {1.1, 0.2, 0.3}, {0.1, 1.2, 0.3}, {0.3, 0.4, 0.3 + height}},
-                   {{0, 1, 2, 3}},
-                   {}};
+      TetMesh mesh{{{0.1, 0.2, 0.3}, {1.1, 0.2, 0.3}, {0.1, 1.2, 0.3}, {0.3, 0.4, 0.3 + height}}, {{0, 1, 2, 3}}, {}};
       for (Eigen::Vector3d& p : mesh.points) {
         p *= scale;
       }
@@ -114,11 +112,9 @@ TEST(InspectMesh, Components) {
 
 TEST(InspectMesh, NonManifoldBoundaryEdge) {
   // Two tetrahedra on opposite sides of a common edge: four boundary triangles meet there.
-  const TetMesh mesh{{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}},
-                     {{0, 2, 3, 1}, {0, 4, 5, 1}},
-                     {}};
-  EXPECT_THAT(Warnings(mesh),
-              ElementsAre("1 edge of the boundary is not shared by exactly two of its triangles"));
+  const TetMesh mesh{
+      {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}}, {{0, 2, 3, 1}, {0, 4, 5, 1}}, {}};
+  EXPECT_THAT(Warnings(mesh), ElementsAre("1 edge of the boundary is not shared by exactly two of its triangles"));
 }
 
 TEST(InspectMesh, OverfullTriangle) {
@@ -139,14 +135,11 @@ TEST(MeshWarnings, OneLineForEachKind) {
   inspection.components = 6;
   inspection.overfull_triangles = 7;
   inspection.non_manifold_boundary_edges = 8;
-  EXPECT_THAT(
-      MeshWarnings(inspection),
-      ElementsAre("2 tetrahedra are inverted", "12 tetrahedra have zero volume",
-                  "3 tetrahedra repeat another", "4 vertices belong to no tetrahedron",
-                  "5 vertices coincide with another (cracks?)",
-                  "the mesh has 6 separate components",
-                  "7 triangles belong to more than two tetrahedra",
-                  "8 edges of the boundary are not shared by exactly two of its triangles"));
+  EXPECT_THAT(MeshWarnings(inspection),
+              ElementsAre("2 tetrahedra are inverted", "12 tetrahedra have zero volume", "3 tetrahedra repeat another",
+                          "4 vertices belong to no tetrahedron", "5 vertices coincide with another (cracks?)",
+                          "the mesh has 6 separate components", "7 triangles belong to more than two tetrahedra",
+                          "8 edges of the boundary are not shared by exactly two of its triangles"));
 }
 
 }  // namespace

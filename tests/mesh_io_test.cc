@@ -43,11 +43,9 @@ class MeshIo : public testing::Test {
 /// Every good text of these tests holds the points (0, 0, 0), (1, 0, 0), (0, 2.5, 0), (0, 0, 1),
 /// (1, 1, -0.001) and two tetrahedra.
 void ExpectTwoTets(const TetMesh& mesh) {
-  EXPECT_THAT(mesh.points, ElementsAre(Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0),
-                                       Eigen::Vector3d(0, 2.5, 0), Eigen::Vector3d(0, 0, 1),
-                                       Eigen::Vector3d(1, 1, -0.001)));
-  EXPECT_THAT(mesh.tets,
-              ElementsAre(std::array<int, 4>{0, 1, 2, 3}, std::array<int, 4>{4, 2, 1, 0}));
+  EXPECT_THAT(mesh.points, ElementsAre(Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 2.5, 0),
+                                       Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(1, 1, -0.001)));
+  EXPECT_THAT(mesh.tets, ElementsAre(std::array<int, 4>{0, 1, 2, 3}, std::array<int, 4>{4, 2, 1, 0}));
 }
 
 std::string Replaced(std::string text, const std::string& from, const std::string& to) {
@@ -99,8 +97,7 @@ TEST_F(MeshIo, MeditInOtherLayouts) {
   ExpectTwoTets(Read("a.mesh", WithCrLf(kMedit)));
   ExpectTwoTets(Read("A.MESH", "\xEF\xBB\xBF" + std::string(kMedit)));
   ExpectTwoTets(Read("a.mesh", Replaced(kMedit, "\nEnd\n", "")));
-  ExpectTwoTets(
-      Read("a.mesh", "# made by hand\n" + Replaced(kMedit, "\n1 0 0 1", " #x 9\n+1 0 0 1")));
+  ExpectTwoTets(Read("a.mesh", "# made by hand\n" + Replaced(kMedit, "\n1 0 0 1", " #x 9\n+1 0 0 1")));
   ExpectTwoTets(Read("a.mesh", Replaced(kMedit, "Dimension 3", "Dimension\n 3\nCorners 2 1 4")));
   ExpectTwoTets(Read("a.mesh",
                      "MeshVersionFormatted 1 Dimension 3 Tetrahedra 2 1 2 3 4 0 5 3 2 1 0 Vertices "
@@ -123,24 +120,19 @@ TEST_F(MeshIo, MeditErrors) {
   EXPECT_EQ(error("5\n0 0", "4\n0 0"), "a.mesh:9: more vertices than announced");
   EXPECT_EQ(error("5\n0 0", "6\n0 0"), "a.mesh:10: 'Triangles' where a coordinate was expected");
   EXPECT_EQ(error("2.5", "2,5"), "a.mesh:7: '2,5' where a coordinate was expected");
-  EXPECT_EQ(error("2.5", "nan"),
-            "a.mesh:7: nan where a finite number was expected for a coordinate");
-  EXPECT_EQ(error("2.5", "-inf"),
-            "a.mesh:7: -inf where a finite number was expected for a coordinate");
+  EXPECT_EQ(error("2.5", "nan"), "a.mesh:7: nan where a finite number was expected for a coordinate");
+  EXPECT_EQ(error("2.5", "-inf"), "a.mesh:7: -inf where a finite number was expected for a coordinate");
   EXPECT_EQ(error("2.5", "2e999"), "a.mesh:7: '2e999' where a coordinate was expected");
   EXPECT_EQ(error("5 3 2 1", "9 3 2 1"), "a.mesh:16: vertex index 9 is out of range 1..5");
   EXPECT_EQ(error("5 3 2 1", "0 3 2 1"), "a.mesh:16: vertex index 0 is out of range 1..5");
   EXPECT_EQ(error("5 3 2 1", "5 3 2 3"), "a.mesh:16: a tetrahedron has vertex 3 twice");
   EXPECT_EQ(error("5 3 2 1", "5 3 2.5 1"), "a.mesh:16: '2.5' where a vertex index was expected");
   EXPECT_EQ(error("1 -8", "1 99999999999"), "a.mesh:16: 99999999999 is too large for a region tag");
-  EXPECT_EQ(error("5 3 2 1 -8\nEnd\n", ""),
-            "a.mesh:14: 2 tetrahedra announced, but only 11 bytes follow");
-  EXPECT_EQ(error("5 3 2 1 -8\nEnd\n", "5 000000003 2"),
-            "a.mesh:16: the file ends before all 2 tetrahedra are read");
+  EXPECT_EQ(error("5 3 2 1 -8\nEnd\n", ""), "a.mesh:14: 2 tetrahedra announced, but only 11 bytes follow");
+  EXPECT_EQ(error("5 3 2 1 -8\nEnd\n", "5 000000003 2"), "a.mesh:16: the file ends before all 2 tetrahedra are read");
   EXPECT_EQ(error("End", "Vertices"), "a.mesh:17: a second section Vertices");
   EXPECT_EQ(error("Vertices", "Points"), "a.mesh: the section Vertices is missing");
-  EXPECT_EQ(error("Tetrahedra\n2", "Hexahedra\n2"),
-            "a.mesh: no tetrahedra, only 2 hexahedra, 1 triangles");
+  EXPECT_EQ(error("Tetrahedra\n2", "Hexahedra\n2"), "a.mesh: no tetrahedra, only 2 hexahedra, 1 triangles");
 }
 
 // ------------------------------------------------------------------------------------------ VTK
@@ -226,10 +218,8 @@ TEST_F(MeshIo, VtkOtherCells) {
                             "6 0 1 2 3 4 5\n5 0 1 2 3 4\n4 0 1 2 3\n"
                             "CELL_TYPES 5\n24\n12\n13\n14\n10\n");
   EXPECT_EQ(mesh.points.size(), 10);
-  EXPECT_THAT(mesh.tets,
-              ElementsAre(std::array<int, 4>{3, 2, 1, 0}, std::array<int, 4>{0, 1, 2, 3}));
-  EXPECT_THAT(warnings_, ElementsAre("1 hexahedra are left out", "1 prisms are left out",
-                                     "1 pyramids are left out",
+  EXPECT_THAT(mesh.tets, ElementsAre(std::array<int, 4>{3, 2, 1, 0}, std::array<int, 4>{0, 1, 2, 3}));
+  EXPECT_THAT(warnings_, ElementsAre("1 hexahedra are left out", "1 prisms are left out", "1 pyramids are left out",
                                      "1 tetrahedra of higher order are read as their corners"));
 }
 
@@ -237,17 +227,13 @@ TEST_F(MeshIo, VtkErrors) {
   const auto error = [this](const std::string& from, const std::string& to) {
     return Error("a.vtk", Replaced(kVtk, from, to));
   };
-  EXPECT_EQ(error("Version 3.0", "Version 1.0"),
-            "a.vtk:1: VTK versions 2.0 to 5.1 are read, not '1.0'");
+  EXPECT_EQ(error("Version 3.0", "Version 1.0"), "a.vtk:1: VTK versions 2.0 to 5.1 are read, not '1.0'");
   EXPECT_EQ(error("ASCII", "BINARY"), "a.vtk:3: binary VTK is not read; save the mesh as ASCII");
   EXPECT_EQ(error("UNSTRUCTURED_GRID", "POLYDATA"),
             "a.vtk:4: a dataset of kind 'POLYDATA', only UNSTRUCTURED_GRID is read");
-  EXPECT_EQ(error("POINTS 5", "POINTS 4000000000"),
-            "a.vtk:5: 4000000000 points announced, but only 104 bytes follow");
-  EXPECT_EQ(error("2.5", "inf"),
-            "a.vtk:7: inf where a finite number was expected for a coordinate");
-  EXPECT_EQ(error("CELLS 3 14", "CELLS 3 13"),
-            "a.vtk:11: a cell of 4 vertices does not fit the 13 entries announced");
+  EXPECT_EQ(error("POINTS 5", "POINTS 4000000000"), "a.vtk:5: 4000000000 points announced, but only 104 bytes follow");
+  EXPECT_EQ(error("2.5", "inf"), "a.vtk:7: inf where a finite number was expected for a coordinate");
+  EXPECT_EQ(error("CELLS 3 14", "CELLS 3 13"), "a.vtk:11: a cell of 4 vertices does not fit the 13 entries announced");
   EXPECT_EQ(error("CELLS 3 14", "CELLS 3 15"), "a.vtk: the section CELL_TYPES is missing or empty");
   EXPECT_EQ(error("4 4 2 1 0", "4 5 2 1 0"), "a.vtk:11: vertex index 5 is out of range 0..4");
   EXPECT_EQ(error("4 4 2 1 0", "4 4 2 1 2"), "a.vtk:11: a tetrahedron has vertex 2 twice");
@@ -255,8 +241,7 @@ TEST_F(MeshIo, VtkErrors) {
   EXPECT_EQ(error("10 5 10", "10 5"), "a.vtk:13: the file ends before all 3 cell types are read");
   EXPECT_EQ(error("CELL_TYPES 3", "CELL_TYPES 2"), "a.vtk:12: 2 cell types for 3 cells");
   EXPECT_EQ(error("10 5 10", "5 5 12"), "a.vtk: no tetrahedra, only 1 hexahedra, 2 triangles");
-  EXPECT_EQ(Error("a.vtk", Replaced(kVtk5, "0 4 7 11", "0 4 3 11")),
-            "a.vtk:16: offset 3 does not fit behind 4");
+  EXPECT_EQ(Error("a.vtk", Replaced(kVtk5, "0 4 7 11", "0 4 3 11")), "a.vtk:16: offset 3 does not fit behind 4");
   EXPECT_EQ(Error("a.vtk", Replaced(kVtk5, "0 4 7 11", "0 4 7 10")),
             "a.vtk:18: a tetrahedron of 3 vertices instead of 4");
 }
@@ -360,11 +345,9 @@ TEST_F(MeshIo, GmshOtherElements) {
                    nodes +
                    "\n3 5 1 1 1 2 3 4 5 6 7 8\n4 6 1 1 1 2 3 4 5 6\n5 7 1 1 1 2 3 4 5\n"
                    "6 5 1 1 1 2 3 4 5 6 7 9\n$EndElements\n");
-  EXPECT_THAT(mesh.tets,
-              ElementsAre(std::array<int, 4>{8, 7, 6, 5}, std::array<int, 4>{0, 1, 2, 3}));
+  EXPECT_THAT(mesh.tets, ElementsAre(std::array<int, 4>{8, 7, 6, 5}, std::array<int, 4>{0, 1, 2, 3}));
   EXPECT_THAT(mesh.regions, ElementsAre(3, 4));
-  EXPECT_THAT(warnings_, ElementsAre("2 hexahedra are left out", "1 prisms are left out",
-                                     "1 pyramids are left out",
+  EXPECT_THAT(warnings_, ElementsAre("2 hexahedra are left out", "1 prisms are left out", "1 pyramids are left out",
                                      "2 tetrahedra of higher order are read as their corners"));
 }
 
@@ -377,25 +360,20 @@ TEST_F(MeshIo, GmshErrors) {
   };
   EXPECT_EQ(Error("a.msh", "$NOD\n1\n1 0 0 0\n"),
             "a.msh:1: Gmsh format 1 is not read; save the mesh in format 2.2 or 4.1");
-  EXPECT_EQ(error4("4.1 0", "4 0"),
-            "a.msh:2: Gmsh format '4' is not read; save the mesh in format 2.2 or 4.1");
-  EXPECT_EQ(error4("4.1 0", "4.1 1"),
-            "a.msh:2: binary Gmsh 4.1 is not read; save the mesh as ASCII");
+  EXPECT_EQ(error4("4.1 0", "4 0"), "a.msh:2: Gmsh format '4' is not read; save the mesh in format 2.2 or 4.1");
+  EXPECT_EQ(error4("4.1 0", "4.1 1"), "a.msh:2: binary Gmsh 4.1 is not read; save the mesh as ASCII");
   EXPECT_EQ(error2("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n", ""),
             "a.msh:1: '$PhysicalNames' where the section $MeshFormat was expected");
   EXPECT_EQ(error2("$EndPhysicalNames\n", ""), "a.msh:21: the file ends before $EndPhysicalNames");
-  EXPECT_EQ(error2("5\n1 0", "4000000000\n1 0"),
-            "a.msh:9: 4000000000 nodes announced, but only 165 bytes follow");
+  EXPECT_EQ(error2("5\n1 0", "4000000000\n1 0"), "a.msh:9: 4000000000 nodes announced, but only 165 bytes follow");
   EXPECT_EQ(error2("5\n1 0", "4\n1 0"), "a.msh:14: '5' where $EndNodes was expected");
   EXPECT_EQ(error2("20 1 0 0", "1 1 0 0"), "a.msh:11: a second node with the number 1");
   EXPECT_EQ(error2("2.5", "x"), "a.msh:12: 'x' where a coordinate was expected");
   EXPECT_EQ(error2("5 3 20 1\n", "5 3 21 1\n"), "a.msh:21: node 21 is not among the 5 nodes read");
   EXPECT_EQ(error2("5 3 20 1\n", "5 3 20 5\n"), "a.msh:21: a tetrahedron has vertex 5 twice");
   EXPECT_EQ(error2(" 3 4000000000\n", " 3\n"), "a.msh:20: a tetrahedron has vertex 3 twice");
-  EXPECT_EQ(error2(" 3 4000000000\n", " 4000000000\n"),
-            "a.msh:20: an element of type 4 with too few nodes");
-  EXPECT_EQ(error2("5 3 20 1\n", "5 3 20 1 4\n"),
-            "a.msh:21: an element of type 4 with too many nodes");
+  EXPECT_EQ(error2(" 3 4000000000\n", " 4000000000\n"), "a.msh:20: an element of type 4 with too few nodes");
+  EXPECT_EQ(error2("5 3 20 1\n", "5 3 20 1 4\n"), "a.msh:21: an element of type 4 with too many nodes");
   EXPECT_EQ(error2("$EndElements\n", ""), "a.msh:21: the file ends before all 4 elements are read");
   EXPECT_EQ(error4("2 5 1 9", "2 6 1 9"), "a.msh:24: 6 nodes announced, but the blocks have 5");
   EXPECT_EQ(error4("3 3 1 3", "2 3 1 3"), "a.msh:31: 3 elements announced, but the blocks have 2");
@@ -413,12 +391,10 @@ TEST_F(MeshIo, SaysWhatTheFileReallyIs) {
             "a.mesh: this is an MFEM mesh, not a Medit mesh as the extension says");
   EXPECT_EQ(Error("a.msh", "(1 \"fluent\")\n"),
             "a.msh: this is an ANSYS Fluent mesh, not a Gmsh mesh as the extension says");
-  EXPECT_EQ(Error("a.vtk", kMedit),
-            "a.vtk: this is a Medit mesh, not a legacy VTK file as the extension says");
+  EXPECT_EQ(Error("a.vtk", kMedit), "a.vtk: this is a Medit mesh, not a legacy VTK file as the extension says");
   EXPECT_EQ(Error("a.mesh", std::string("\1\0\0\0\2\0\0\0", 8)),
             "a.mesh: this is binary data, not a Medit mesh as the extension says");
-  EXPECT_EQ(Error("a.mesh", "hello\tworld\n"),
-            "a.mesh:1: 'hello' where a Medit mesh has MeshVersionFormatted");
+  EXPECT_EQ(Error("a.mesh", "hello\tworld\n"), "a.mesh:1: 'hello' where a Medit mesh has MeshVersionFormatted");
   EXPECT_EQ(Error("a.stl", kMedit),
             "a.stl: the extension '.stl' is not one of .mesh (Medit), .vtk (legacy VTK), .msh "
             "(Gmsh)");
@@ -431,9 +407,8 @@ TEST_F(MeshIo, SaysWhyAFileCannotBeRead) {
 }
 
 TEST_F(MeshIo, MessagesQuoteDamagedTextSafely) {
-  EXPECT_EQ(
-      Error("a.mesh", "MeshVersionFormatted \x1B[31m\xFF" + std::string(100, 'x')),
-      "a.mesh:1: '?[31m?xxxxxxxxxxxxxxxxxxxxxxxxxx...' where the format version was expected");
+  EXPECT_EQ(Error("a.mesh", "MeshVersionFormatted \x1B[31m\xFF" + std::string(100, 'x')),
+            "a.mesh:1: '?[31m?xxxxxxxxxxxxxxxxxxxxxxxxxx...' where the format version was expected");
 }
 
 TEST_F(MeshIo, NumbersBelowTheSmallestDoubleAreZero) {

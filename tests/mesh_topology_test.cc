@@ -45,9 +45,7 @@ TEST(MeshTopology, CountsOfABox) {
   const int num_triangles = static_cast<int>(MeshTriangles(mesh).size());
   EXPECT_EQ(num_edges, grid_edges + face_diagonals + cell_diagonals);
   // The Euler characteristic of a ball.
-  EXPECT_EQ(static_cast<int>(mesh.points.size()) - num_edges + num_triangles -
-                static_cast<int>(mesh.tets.size()),
-            1);
+  EXPECT_EQ(static_cast<int>(mesh.points.size()) - num_edges + num_triangles - static_cast<int>(mesh.tets.size()), 1);
   // Every tetrahedron has four triangles; those inside belong to two.
   EXPECT_EQ(2 * num_triangles - static_cast<int>(BoundaryTriangles(mesh).size()),
             4 * static_cast<int>(mesh.tets.size()));
@@ -68,16 +66,13 @@ TEST(MeshTopology, ListsAreSortedAndUnique) {
 
 TEST(MeshTopology, OneTet) {
   const TetMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{3, 1, 0, 2}}, {}};
-  EXPECT_EQ(MeshEdges(mesh),
-            (std::vector<std::array<int, 2>>{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}));
-  EXPECT_EQ(MeshTriangles(mesh),
-            (std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}}));
+  EXPECT_EQ(MeshEdges(mesh), (std::vector<std::array<int, 2>>{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}));
+  EXPECT_EQ(MeshTriangles(mesh), (std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}}));
   std::vector<std::array<int, 3>> boundary;
   for (const std::array<int, 3>& triangle : BoundaryTriangles(mesh)) {
     boundary.push_back(Rotated(triangle));
   }
-  EXPECT_EQ(boundary,
-            (std::vector<std::array<int, 3>>{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}));
+  EXPECT_EQ(boundary, (std::vector<std::array<int, 3>>{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}));
 }
 
 TEST(MeshTopology, BoundaryIsClosedAndFacesOutward) {

@@ -68,6 +68,18 @@ TEST(MatchFrames, ParityIsTheSignOfTheOctupolesProductBelow45Degrees) {
   }
 }
 
+// Against the definition: no other element has a larger trace, however far the frames are apart.
+TEST(MatchFrames, HasTheLargestTrace) {
+  std::mt19937 generator(5);
+  for (int i = 0; i < 2000; ++i) {
+    const Matrix3d a = RandomFrame(&generator), b = RandomFrame(&generator);
+    const auto trace = [&](const OctahedralRotation& g) { return ((a * g.matrix()).transpose() * b).trace(); };
+    const OctahedralRotation match = MatchFrames(a, b);
+    EXPECT_EQ(match.matrix().determinant(), 1);
+    for (const auto& g : OctahedralGroup()) EXPECT_LE(trace(g), trace(match) + 1e-12);
+  }
+}
+
 // The frames around a singular curve of valence 3 or 5 turn by a quarter around it.
 TEST(IsSingularTriangle, SeesAQuarterTurnAndNothingElse) {
   std::mt19937 generator(2);

@@ -124,8 +124,8 @@ void ExpectOnlyOctahedralZeros() {
 TEST(Quadrics, HaveOnlyOctahedralZerosInDegree3) { ExpectOnlyOctahedralZeros<3>(); }
 TEST(Quadrics, HaveOnlyOctahedralZerosInDegree4) { ExpectOnlyOctahedralZeros<4>(); }
 
-// The identities behind the proof that the five quadrics suffice (docs/theory.md, section 2): with z at a stationary point of
-// the function, so that the orders +-1 vanish, d is a sum of three squares.
+// The identities behind the proof that the five quadrics suffice (docs/theory.md, section 2): with z at a stationary
+// point of the function, so that the orders +-1 vanish, d is a sum of three squares.
 TEST(Deviation, IsThreeSquaresWhereTheFunctionIsStationaryAtZ) {
   using Complex = std::complex<double>;
   std::mt19937 generator(8);
@@ -172,8 +172,8 @@ TEST(Deviation, IsThePrintedPolynomial) {
 }
 
 // Lemma 2: d is the average over all rotations of the sum of the squares of the paper's three quadrics, here by a rule
-// exact for its integrand, which has degree 12 in each Euler angle: the trapezium rule with more than 12 nodes, and Gauss
-// and Legendre's with 7.
+// exact for its integrand, which has degree 12 in each Euler angle: the trapezium rule with more than 12 nodes, and
+// Gauss and Legendre's with 7.
 TEST(Deviation, IsTheAverageOfThePapersThreeQuadrics) {
   const double nodes[] = {0, 0.4058451513773972, 0.7415311855993945, 0.9491079123427585};
   const double weights[] = {0.4179591836734694, 0.3818300505051189, 0.2797053914892766, 0.1294849661688697};

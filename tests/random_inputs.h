@@ -18,8 +18,6 @@ Harmonic<kDegree> RandomHarmonic(std::mt19937* generator) {
   return Harmonic<kDegree>::NullaryExpr([&] { return normal(*generator); });
 }
 
-inline Eigen::Vector3d RandomDirection(std::mt19937* generator) {
-  return RandomFrame(generator).col(0);
-}
+inline Eigen::Vector3d RandomDirection(std::mt19937* generator) { return RandomFrame(generator).col(0); }
 
 }  // namespace octupole

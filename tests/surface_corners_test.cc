@@ -65,8 +65,7 @@ TEST(VertexNormals, IgnoreFlatTrianglesAtAnyScale) {
         scale * Eigen::Vector3d(0.0, 0.0, 0.0), scale * Eigen::Vector3d(0.1, 0.7, 0.0),
         scale * Eigen::Vector3d(0.7, 0.1, 0.0), scale * Eigen::Vector3d(0.4, 0.4, 1e-17),
         scale * Eigen::Vector3d(0.0, 0.0, 1.0)};
-    const std::vector<Eigen::Vector3d> normals =
-        VertexNormals(points, {{0, 1, 2}, {1, 3, 2}, {1, 1, 2}});
+    const std::vector<Eigen::Vector3d> normals = VertexNormals(points, {{0, 1, 2}, {1, 3, 2}, {1, 1, 2}});
     for (const int v : {0, 1, 2}) {
       EXPECT_EQ(normals[v], Eigen::Vector3d(0, 0, -1)) << "vertex " << v << ", scale " << scale;
     }

@@ -39,11 +39,9 @@ TEST(CheckTetMesh, NamesWhatIsWrong) {
 
   mesh = OneTet();
   mesh.tets.push_back({3, 2, 1, 4});
-  EXPECT_EQ(CheckMessage(mesh),
-            "CheckTetMesh: tetrahedron 1 has the vertex index 4, out of range 0..3");
+  EXPECT_EQ(CheckMessage(mesh), "CheckTetMesh: tetrahedron 1 has the vertex index 4, out of range 0..3");
   mesh.tets[1] = {-1, 2, 1, 0};
-  EXPECT_EQ(CheckMessage(mesh),
-            "CheckTetMesh: tetrahedron 1 has the vertex index -1, out of range 0..3");
+  EXPECT_EQ(CheckMessage(mesh), "CheckTetMesh: tetrahedron 1 has the vertex index -1, out of range 0..3");
   mesh.tets[1] = {3, 2, 1, 2};
   EXPECT_EQ(CheckMessage(mesh), "CheckTetMesh: tetrahedron 1 has vertex 2 twice");
 }

@@ -67,8 +67,7 @@ TEST(WriteVtu, KeepsEveryBit) {
   const std::string vtu = ReadText(folder / "a.vtu");
   EXPECT_NE(vtu.find("byte_order=\"LittleEndian\" header_type=\"UInt64\""), std::string::npos);
   EXPECT_NE(vtu.find("<Piece NumberOfPoints=\"12\" NumberOfCells=\"12\">"), std::string::npos);
-  const auto points =
-      ReadArray<double>(vtu, R"(type="Float64" Name="Points" NumberOfComponents="3")");
+  const auto points = ReadArray<double>(vtu, R"(type="Float64" Name="Points" NumberOfComponents="3")");
   ASSERT_EQ(points.size(), 3 * num_points);
   EXPECT_EQ(std::memcmp(points.data(), mesh.points.data(), points.size() * sizeof(double)), 0);
   const auto connectivity = ReadArray<std::int32_t>(vtu, R"(type="Int32" Name="connectivity")");
@@ -83,8 +82,7 @@ TEST(WriteVtu, KeepsEveryBit) {
   }
   EXPECT_EQ(ReadArray<std::uint8_t>(vtu, R"(type="UInt8" Name="types")"),
             std::vector<std::uint8_t>(mesh.tets.size(), 10));
-  EXPECT_EQ(ReadArray<double>(vtu, R"(type="Float64" Name="frame_x" NumberOfComponents="3")"),
-            vectors);
+  EXPECT_EQ(ReadArray<double>(vtu, R"(type="Float64" Name="frame_x" NumberOfComponents="3")"), vectors);
   EXPECT_EQ(ReadArray<std::int32_t>(vtu, R"(type="Int32" Name="a&lt;&quot;&amp;")"), flags);
   EXPECT_EQ(ReadArray<int>(vtu, R"(type="Int32" Name="region")"), mesh.regions);
 }
@@ -96,9 +94,7 @@ TEST(WriteVtu, PadsAnyNumberOfBytes) {
   for (const std::size_t num_tets : {6, 5, 4}) {
     mesh.tets.resize(num_tets);
     WriteVtu(folder / "a.vtu", mesh, {});
-    EXPECT_EQ(
-        ReadArray<std::uint8_t>(ReadText(folder / "a.vtu"), R"(type="UInt8" Name="types")").size(),
-        num_tets);
+    EXPECT_EQ(ReadArray<std::uint8_t>(ReadText(folder / "a.vtu"), R"(type="UInt8" Name="types")").size(), num_tets);
   }
 }
 
@@ -125,8 +121,7 @@ TEST(WriteVtu, RefusesBadArrays) {
   };
   EXPECT_EQ(message({"", 1, &value}), "WriteVtu: point array 0 has no name");
   EXPECT_EQ(message({"a", 0, &value}), "WriteVtu: point array 'a' has 0 components");
-  EXPECT_EQ(message({"a", 1, static_cast<const double*>(nullptr)}),
-            "WriteVtu: point array 'a' has no values");
+  EXPECT_EQ(message({"a", 1, static_cast<const double*>(nullptr)}), "WriteVtu: point array 'a' has no values");
 }
 
 TEST(WriteVtu, NamesThePathThatCannotBeWritten) {

@@ -22,7 +22,6 @@
 #include "octupole/field_writer.h"
 #include "octupole/mesh_inspection.h"
 #include "octupole/mesh_io.h"
-#include "octupole/mesh_topology.h"
 #include "octupole/solver_presets.h"
 
 namespace octupole {
@@ -37,6 +36,7 @@ struct Arguments {
   std::filesystem::path output;
   std::filesystem::path report;
   int degree = 3;
+  /// None is the fast solver.
   std::optional<SolverPreset> solver;
   double feature_angle = 40;
   std::uint32_t seed = 0;
@@ -45,11 +45,11 @@ struct Arguments {
   bool quiet = false;
 };
 
-std::string NameOf(SolverPreset preset) {
+std::string NameOf(const std::optional<SolverPreset>& preset) {
   for (const auto& [name, value] : kSolverOfName) {
     if (value == preset) return name;
   }
-  throw std::logic_error("NameOf: a preset without a name");
+  return "fast";
 }
 
 class Stopwatch {
@@ -133,15 +133,20 @@ void RunField(const Arguments& arguments) {
     }
   }
 
-  const SolverPreset preset = arguments.solver.value_or(ChooseSolverPreset(mesh.points.size()));
   Progress progress(&guard, !arguments.quiet && isatty(fileno(stderr)) != 0);
   FieldOptions<kDegree> options;
   options.feature_angle_deg = arguments.feature_angle;
   options.seed = arguments.seed;
-  options.solver = MakeSolverOptions(preset);
-  options.solver->num_threads = arguments.threads;
-  if (arguments.max_iterations) options.solver->max_num_iterations = *arguments.max_iterations;
-  options.solver->callbacks.push_back(&progress);
+  if (arguments.solver) {
+    options.solver = MakeSolverOptions(*arguments.solver);
+    options.solver->num_threads = arguments.threads;
+    if (arguments.max_iterations) options.solver->max_num_iterations = *arguments.max_iterations;
+    options.solver->callbacks.push_back(&progress);
+  } else {
+    options.fast.num_threads = arguments.threads;
+    if (arguments.max_iterations) options.fast.max_iterations = *arguments.max_iterations;
+    options.fast.callback = &progress;
+  }
   const Field<kDegree> field = SolveField<kDegree>(mesh, options);
   progress.Finish();
   if (!field.summary.IsSolutionUsable()) {
@@ -158,7 +163,7 @@ void RunField(const Arguments& arguments) {
       {"output", arguments.output.string()},
       {"vertices", mesh.points.size()},
       {"tets", mesh.tets.size()},
-      {"edges", MeshEdges(mesh).size()},
+      {"edges", quality.edges},
       {"alignment",
        {{"normals", field.alignment.num_normals},
         {"frames", field.alignment.num_frames},
@@ -168,7 +173,7 @@ void RunField(const Arguments& arguments) {
       {"degree", kDegree},
       {"seed", arguments.seed},
       {"unknowns", field.summary.num_effective_parameters_reduced},
-      {"solver", NameOf(preset)},
+      {"solver", NameOf(arguments.solver)},
       {"termination", ceres::TerminationTypeToString(field.summary.termination_type)},
       {"iterations", field.summary.iterations.empty() ? 0 : field.summary.iterations.back().iteration},
       {"energy", field.energy},
@@ -212,11 +217,11 @@ void AddFieldCommand(CLI::App* app) {
       ->add_option_function<std::string>(
           "--solver",
           [arguments](const std::string& name) {
-            if (name != "auto") arguments->solver = kSolverOfName.at(name);
+            if (name != "fast") arguments->solver = kSolverOfName.at(name);
           },
-          "cholesky, cgnr or lbfgs; auto chooses by size")
-      ->check(CLI::IsMember({"auto", "cholesky", "cgnr", "lbfgs"}))
-      ->option_text("NAME [auto]");
+          "fast, or of Ceres cholesky, cgnr or lbfgs")
+      ->check(CLI::IsMember({"fast", "cholesky", "cgnr", "lbfgs"}))
+      ->option_text("NAME [fast]");
   command->add_option("--feature-angle", arguments->feature_angle, "Between normals, above which an edge is sharp")
       ->check(CLI::Range(1., 179.))
       ->option_text("DEG [40]");

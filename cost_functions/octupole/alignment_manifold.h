@@ -10,9 +10,9 @@ namespace octupole {
 ///
 ///   Plus(x, delta) = x + U delta,   Minus(y, x) = U^T (y - x).
 ///
-/// Ambient size kDimension; tangent size 2 for an axis, 1 for a frame, kDimension for a free vertex. Plus keeps a point of the
-/// subspace in it and does not move a point onto it: start from AlignedSubspace::Project. In degree 3 a frame's line
-/// also holds zero and the opposite sign; to prescribe the frame itself, set the block constant.
+/// Ambient size kDimension; tangent size 2 for an axis, 1 for a frame, kDimension for a free vertex. Plus keeps a point
+/// of the subspace in it and does not move a point onto it: start from AlignedSubspace::Project. In degree 3 a frame's
+/// line also holds zero and the opposite sign; to prescribe the frame itself, set the block constant.
 template <int kDegree>
 class AlignmentManifold final : public ceres::Manifold {
  public:

@@ -11,8 +11,7 @@ using RowMajor9 = Eigen::Matrix<double, 9, 9, Eigen::RowMajor>;
 }  // namespace
 
 template <>
-bool AnalyticSmoothnessCost<3>::Evaluate(const double* const* parameters, double* residuals,
-                                         double** jacobians) const {
+bool AnalyticSmoothnessCost<3>::Evaluate(const double* const* parameters, double* residuals, double** jacobians) const {
   const Eigen::Map<const Octupole> a(parameters[0]), b(parameters[1]);
   const double sign = a.dot(b) >= 0 ? 1 : -1;
   const Octupole p = a + sign * b, q = a - sign * b;
@@ -33,8 +32,7 @@ bool AnalyticSmoothnessCost<3>::Evaluate(const double* const* parameters, double
 }
 
 template <>
-bool AnalyticSmoothnessCost<4>::Evaluate(const double* const* parameters, double* residuals,
-                                         double** jacobians) const {
+bool AnalyticSmoothnessCost<4>::Evaluate(const double* const* parameters, double* residuals, double** jacobians) const {
   const Eigen::Map<const Hexadecapole> a(parameters[0]), b(parameters[1]);
   Eigen::Map<Hexadecapole> r(residuals);
   r = root_ * (a - b);

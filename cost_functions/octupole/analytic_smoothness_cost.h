@@ -12,7 +12,8 @@ namespace octupole {
 ///
 /// Degree 3, with sign = +1 where a . b >= 0 and -1 elsewhere, p = a + sign b, q = a - sign b:
 ///
-///   r = sqrt(weight) |p| q,   dr/da = sqrt(weight) (|p| I + q p^T / |p|),   dr/db = sign sqrt(weight) (q p^T / |p| - |p| I).
+///   r = sqrt(weight) |p| q,   dr/da = sqrt(weight) (|p| I + q p^T / |p|),   dr/db = sign sqrt(weight) (q p^T / |p| -
+///   |p| I).
 ///
 /// Degree 4: r = sqrt(weight) (a - b), with derivatives +-sqrt(weight) I.
 template <int kDegree>

@@ -12,8 +12,8 @@ namespace octupole {
 //   E = sum over edges  weight |a - b|^2 |a + b|^2                          (degree 4: weight |a - b|^2)
 //     + sum over vertices  w1 (|a|^2 - 1)^2 + w2 d(a)                       (paper, eq. 5.1).
 //
-// Ceres minimises half the squared norm, so E = 2 * cost: `summary.final_cost` is half our energy, and the gradient that
-// ceres::Problem::Evaluate returns is half of E's.
+// Ceres minimises half the squared norm, so E = 2 * cost: `summary.final_cost` is half our energy, and the gradient
+// that ceres::Problem::Evaluate returns is half of E's.
 
 /// The factor sqrt(weight) that a residual block applies for its squared norm to carry `weight`.
 /// \throw std::invalid_argument, naming `caller`, when `weight` is negative or not finite.

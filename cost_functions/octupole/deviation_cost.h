@@ -11,8 +11,8 @@ namespace octupole {
 ///
 ///   r_k = sqrt(weight) a^T N_k a,  k = 1..5,   |r|^2 = weight d(a).
 ///
-/// Parameters: a (kDimension). Residuals: 5, one per quadric, in the order of Quadrics(). Polynomial, without degenerate points.
-/// Gauss-Newton sees the exact Hessian where d = 0.
+/// Parameters: a (kDimension). Residuals: 5, one per quadric, in the order of Quadrics(). Polynomial, without
+/// degenerate points. Gauss-Newton sees the exact Hessian where d = 0.
 template <int kDegree>
 class DeviationCost {
  public:

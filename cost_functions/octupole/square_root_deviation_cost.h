@@ -11,8 +11,8 @@ namespace octupole {
 ///
 ///   r = sqrt(weight d(a)),   |r|^2 = weight d(a).
 ///
-/// Parameters: a (kDimension). Residuals: 1. It has no derivative where d = 0, which is where every solve ends: there the
-/// Jacobian is set to zero, a subgradient. Gauss-Newton knows only one direction of the three in which d grows; use
+/// Parameters: a (kDimension). Residuals: 1. It has no derivative where d = 0, which is where every solve ends: there
+/// the Jacobian is set to zero, a subgradient. Gauss-Newton knows only one direction of the three in which d grows; use
 /// DeviationCost unless you mean to compare with the paper.
 template <int kDegree>
 class SquareRootDeviationCost {

@@ -47,8 +47,8 @@ class Alignment {
 /// `offset` is zero except for an axis in degree 4, where it is sqrt(7/12) D(R_n) Y_{4,0}.
 template <int kDegree>
 struct AlignedSubspace {
-  using Basis =
-      Eigen::Matrix<double, kDimension<kDegree>, Eigen::Dynamic, Eigen::ColMajor, kDimension<kDegree>, kDimension<kDegree>>;
+  using Basis = Eigen::Matrix<double, kDimension<kDegree>, Eigen::Dynamic, Eigen::ColMajor, kDimension<kDegree>,
+                              kDimension<kDegree>>;
 
   explicit AlignedSubspace(const Alignment& alignment);
 

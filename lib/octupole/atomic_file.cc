@@ -39,8 +39,7 @@ class TemporaryFile {
 
 }  // namespace
 
-void WriteFileAtomically(const std::filesystem::path& path,
-                         const std::function<void(std::ostream&)>& write) {
+void WriteFileAtomically(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write) {
   // A rename would replace a device such as /dev/null as well.
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);

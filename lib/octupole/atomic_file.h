@@ -13,7 +13,6 @@ namespace octupole {
 /// \throw std::runtime_error naming the path and the cause: the folder is missing or not writable,
 /// the disk is full, or something other than a regular file has this name. What `write` throws
 /// passes through.
-void WriteFileAtomically(const std::filesystem::path& path,
-                         const std::function<void(std::ostream&)>& write);
+void WriteFileAtomically(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
 
 }  // namespace octupole

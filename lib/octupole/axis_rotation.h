@@ -4,10 +4,10 @@
 
 namespace octupole {
 
-// Rotations about the coordinate axes, in the manner of the paper's appendix A.1: every one is built from rotations about z,
-// which turn each pair of orders +-m by m times the angle, and one constant matrix, the quarter turn about x. All are
-// right-handed, D(exp(angle G_k)) of RotationGenerators(), except PaperRotationY(). Degrees 3 and 4.
-// \throw std::invalid_argument, all of them, when the angle is not finite.
+// Rotations about the coordinate axes, in the manner of the paper's appendix A.1: every one is built from rotations
+// about z, which turn each pair of orders +-m by m times the angle, and one constant matrix, the quarter turn about x.
+// All are right-handed, D(exp(angle G_k)) of RotationGenerators(), except PaperRotationY(). Degrees 3 and 4. \throw
+// std::invalid_argument, all of them, when the angle is not finite.
 
 /// The rotation by `angle` about +z; the paper's R_z.
 template <int kDegree>

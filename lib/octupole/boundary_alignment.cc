@@ -33,9 +33,7 @@ constexpr double kMinFrameFit = 0.9;
 // them 60 degrees apart, or a cone of half-aperture 30 degrees.
 constexpr double kMinLineShare = 0.75;
 
-AxisBasis BasisOfAxis(const Eigen::Vector3d& axis) {
-  return AlignedSubspace<3>(Alignment::Axis(axis)).basis;
-}
+AxisBasis BasisOfAxis(const Eigen::Vector3d& axis) { return AlignedSubspace<3>(Alignment::Axis(axis)).basis; }
 
 // The line on which directions d lie up to sign, if they do, given the sum of d d^T.
 std::optional<Eigen::Vector3d> FindLine(const Eigen::Matrix3d& directions) {
@@ -45,8 +43,8 @@ std::optional<Eigen::Vector3d> FindLine(const Eigen::Matrix3d& directions) {
   return eigen.vectors.col(2);
 }
 
-// Whether the harmonics in which the faces' normals agree best are those with `axis`, however turned about it. If turning
-// about it is far from free, it is but one of the axes of a frame.
+// Whether the harmonics in which the faces' normals agree best are those with `axis`, however turned about it. If
+// turning about it is far from free, it is but one of the axes of a frame.
 bool IsOnlyAxis(const Eigen::Vector3d& axis, const Matrix7& conflict, const Octupole& lowest) {
   const AxisBasis basis = BasisOfAxis(axis);
   if ((basis.transpose() * lowest).squaredNorm() < kMostly) return false;
@@ -153,8 +151,7 @@ BoundaryAlignment AlignToBoundary(const TetMesh& mesh, double feature_angle_deg)
     const std::vector<SurfaceCorner> corners = WithNormal(corners_of[v]);
     const Eigen::Vector3d mean_normal = MeanNormal(corners);
     const bool is_smooth = NormalsAgree(corners, feature_angle_deg) && !mean_normal.isZero(0);
-    const CommonAlignment common =
-        is_smooth || corners.empty() ? CommonAlignment() : FindCommonAlignment(corners);
+    const CommonAlignment common = is_smooth || corners.empty() ? CommonAlignment() : FindCommonAlignment(corners);
     Alignment& alignment = result.alignments[v];
     if (is_smooth) {
       alignment = Alignment::Axis(mean_normal);

@@ -27,20 +27,17 @@ void CheckArguments(const std::array<int, 3>& cells, const Eigen::Vector3d& size
   for (int i = 0; i < 3; ++i) {
     const std::string axis(1, "xyz"[i]);
     if (cells[i] < 1) {
-      throw std::invalid_argument("MakeBoxMesh: " + std::to_string(cells[i]) + " cells along " +
-                                  axis);
+      throw std::invalid_argument("MakeBoxMesh: " + std::to_string(cells[i]) + " cells along " + axis);
     }
     if (!(size[i] > 0.0) || !std::isfinite(size[i])) {
-      throw std::invalid_argument("MakeBoxMesh: the size along " + axis + " is " +
-                                  std::to_string(size[i]));
+      throw std::invalid_argument("MakeBoxMesh: the size along " + axis + " is " + std::to_string(size[i]));
     }
     num_points *= cells[i] + 1.0;
     num_tets *= cells[i];
   }
   if (std::max(num_points, num_tets) > std::numeric_limits<int>::max()) {
-    throw std::invalid_argument("MakeBoxMesh: " + std::to_string(cells[0]) + " x " +
-                                std::to_string(cells[1]) + " x " + std::to_string(cells[2]) +
-                                " cells are too many");
+    throw std::invalid_argument("MakeBoxMesh: " + std::to_string(cells[0]) + " x " + std::to_string(cells[1]) + " x " +
+                                std::to_string(cells[2]) + " cells are too many");
   }
 }
 
@@ -54,8 +51,7 @@ TetMesh MakeBoxMesh(const std::array<int, 3>& cells, const Eigen::Vector3d& size
   for (int k = 0; k <= cells[2]; ++k) {
     for (int j = 0; j <= cells[1]; ++j) {
       for (int i = 0; i <= cells[0]; ++i) {
-        mesh.points.emplace_back(size.x() * i / cells[0], size.y() * j / cells[1],
-                                 size.z() * k / cells[2]);
+        mesh.points.emplace_back(size.x() * i / cells[0], size.y() * j / cells[1], size.z() * k / cells[2]);
       }
     }
   }

@@ -10,9 +10,9 @@ namespace {
 
 using Matrix7 = HarmonicMatrix<3>;
 
-// The nine quadratic forms H_k, scaled for the map. As functions of the octupole they turn like the harmonics of degree 4:
-// G_j H_k - H_k G_j, with the generators G of degree 3, is the sum over i of (generator j of degree 4)_{ik} H_i. That gives
-// all of them from the one of m = 0, which is diagonal.
+// The nine quadratic forms H_k, scaled for the map. As functions of the octupole they turn like the harmonics of degree
+// 4: G_j H_k - H_k G_j, with the generators G of degree 3, is the sum over i of (generator j of degree 4)_{ik} H_i.
+// That gives all of them from the one of m = 0, which is diagonal.
 std::array<Matrix7, 9> MakeForms() {
   const auto& [x3, y3, z3] = RotationGenerators<3>();
   const auto& [x4, y4, z4] = RotationGenerators<4>();

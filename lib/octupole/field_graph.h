@@ -28,8 +28,8 @@ struct FieldGraph {
 /// \throw std::invalid_argument unless there is one alignment per point.
 FieldGraph MakeFieldGraph(const TetMesh& mesh, std::vector<Alignment> alignments);
 
-/// \throw std::invalid_argument naming the first edge whose ends are out of range or equal, or whose weight is negative or
-/// not finite.
+/// \throw std::invalid_argument naming the first edge whose ends are out of range or equal, or whose weight is negative
+/// or not finite.
 void CheckFieldGraph(const FieldGraph& graph);
 
 }  // namespace octupole

@@ -47,6 +47,7 @@ FieldQuality MeasureField(const TetMesh& mesh, const std::vector<Eigen::Matrix3d
   }
   FieldQuality quality;
   for (const auto& [a, b] : MeshEdges(mesh)) {
+    ++quality.edges;
     quality.energy3 += FrameDifference<3>(frames[a], frames[b]);
     quality.energy4 += FrameDifference<4>(frames[a], frames[b]);
   }

@@ -11,11 +11,13 @@ namespace octupole {
 /// What can be said of a field of frames on a tet mesh without knowing how it was computed. The same numbers for any
 /// method and any degree, so fields can be compared by them.
 struct FieldQuality {
+  std::size_t edges = 0;
   /// Sum over the mesh's edges of FrameDifference<3> and FrameDifference<4>.
   double energy3 = 0;
   double energy4 = 0;
-  /// The angle in degrees between the angle-weighted normal and the nearest axis, over the smooth boundary vertices: those
-  /// at which all normals of incident boundary faces are within 35 degrees of each other and no such face has zero area.
+  /// The angle in degrees between the angle-weighted normal and the nearest axis, over the smooth boundary vertices:
+  /// those at which all normals of incident boundary faces are within 35 degrees of each other and no such face has
+  /// zero area.
   double boundary_rms_deg = 0;
   double boundary_max_deg = 0;
   std::size_t smooth_boundary_vertices = 0;

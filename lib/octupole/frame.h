@@ -15,12 +15,13 @@ template <int kDegree>
 Harmonic<kDegree> HarmonicFromFrame(const Eigen::Matrix3d& frame);
 
 /// The frame whose harmonic is nearest to h: the global maximum of h . D(R) reference over all rotations R
-/// (theory.md, section 5). Orthonormal to rounding. In degree 3 the signs are such that h . HarmonicFromFrame(frame) > 0.
+/// (theory.md, section 5). Orthonormal to rounding. In degree 3 the signs are such that h . HarmonicFromFrame(frame) >
+/// 0.
 ///
-/// Newton's method on the rotation group, from the best rotation of a fixed covering of it, and, unless the maximum found is
-/// within the manifold's reach of h and therefore the global one, from every local maximum of the covering. When several
-/// frames are equally near, it is one of them, always the same for the same h.
-/// \throw std::invalid_argument when h is zero or not finite: no frame is nearest then.
+/// Newton's method on the rotation group, from the best rotation of a fixed covering of it, and, unless the maximum
+/// found is within the manifold's reach of h and therefore the global one, from every local maximum of the covering.
+/// When several frames are equally near, it is one of them, always the same for the same h. \throw
+/// std::invalid_argument when h is zero or not finite: no frame is nearest then.
 template <int kDegree>
 Eigen::Matrix3d NearestFrame(const Harmonic<kDegree>& h);
 

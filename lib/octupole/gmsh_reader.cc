@@ -58,8 +58,8 @@ class GmshReader {
       } else if (section == "$NOD") {
         tokens_.Fail("Gmsh format 1 is not read; save the mesh in format 2.2 or 4.1");
       } else if (section.front() != '$' || (!has_format && section != "$Comments")) {
-        tokens_.Fail(Quoted(section) + " where " +
-                     (has_format ? "a section" : "the section $MeshFormat") + " was expected");
+        tokens_.Fail(Quoted(section) + " where " + (has_format ? "a section" : "the section $MeshFormat") +
+                     " was expected");
       } else if (section == "$Nodes") {
         is_version_4 ? ReadNodes4() : ReadNodes2();
       } else if (section == "$Elements") {
@@ -83,8 +83,7 @@ class GmshReader {
   bool ReadFormat() {
     const std::string version(tokens_.NextWord());
     if (version != "4.1" && version != "2" && version.substr(0, 2) != "2.") {
-      tokens_.Fail("Gmsh format " + Quoted(version) +
-                   " is not read; save the mesh in format 2.2 or 4.1");
+      tokens_.Fail("Gmsh format " + Quoted(version) + " is not read; save the mesh in format 2.2 or 4.1");
     }
     if (tokens_.NextInt("the file type") != 0) {
       tokens_.Fail("binary Gmsh " + version + " is not read; save the mesh as ASCII");
@@ -207,8 +206,8 @@ class GmshReader {
       result_.mesh.tets.push_back(NextTet(tokens_, [this](std::int64_t tag) {
         const auto node = index_of_node_.find(tag);
         if (node == index_of_node_.end()) {
-          tokens_.Fail("node " + std::to_string(tag) + " is not among the " +
-                       std::to_string(index_of_node_.size()) + " nodes read");
+          tokens_.Fail("node " + std::to_string(tag) + " is not among the " + std::to_string(index_of_node_.size()) +
+                       " nodes read");
         }
         return node->second;
       }));
@@ -227,8 +226,7 @@ class GmshReader {
 
   void CheckTotal(const std::string& what, std::int64_t announced, std::int64_t found) {
     if (announced != found) {
-      tokens_.Fail(std::to_string(announced) + " " + what + " announced, but the blocks have " +
-                   std::to_string(found));
+      tokens_.Fail(std::to_string(announced) + " " + what + " announced, but the blocks have " + std::to_string(found));
     }
   }
 
@@ -240,8 +238,6 @@ class GmshReader {
 
 }  // namespace
 
-ParsedMesh ReadGmsh(const std::string& path, std::string_view text) {
-  return GmshReader(path, text).Read();
-}
+ParsedMesh ReadGmsh(const std::string& path, std::string_view text) { return GmshReader(path, text).Read(); }
 
 }  // namespace octupole::internal

@@ -26,7 +26,8 @@ using Hexadecapole = Harmonic<4>;
 template <int kDegree>
 Harmonic<kDegree> EvaluateBasis(const Eigen::Vector3d& direction);
 
-/// The gradient at `point` of the homogeneous polynomial of a harmonic h, h.dot(EvaluateBasis<kDegree>(x)). Degrees 3 and 4.
+/// The gradient at `point` of the homogeneous polynomial of a harmonic h, h.dot(EvaluateBasis<kDegree>(x)). Degrees 3
+/// and 4.
 template <int kDegree>
 Eigen::Vector3d EvaluateGradient(const Harmonic<kDegree>& h, const Eigen::Vector3d& point);
 

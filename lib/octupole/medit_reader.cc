@@ -29,8 +29,7 @@ void CheckSectionEnd(TextTokenizer& tokens, const char* what) {
   }
 }
 
-void SetOnce(std::optional<TextTokenizer>& section, const TextTokenizer& start,
-             std::string_view keyword) {
+void SetOnce(std::optional<TextTokenizer>& section, const TextTokenizer& start, std::string_view keyword) {
   if (section) {
     start.Fail("a second section " + std::string(keyword));
   }
@@ -87,9 +86,7 @@ ParsedMesh ReadMedit(const std::string& path, std::string_view text) {
     const int num_tets = tetrahedra->NextCount("tetrahedra", 5);
     mesh.tets.reserve(num_tets);
     mesh.regions.reserve(num_tets);
-    const auto index_of = [&](std::int64_t number) {
-      return IndexInOrder(*tetrahedra, number, 1, mesh.points.size());
-    };
+    const auto index_of = [&](std::int64_t number) { return IndexInOrder(*tetrahedra, number, 1, mesh.points.size()); };
     for (int t = 0; t < num_tets; ++t) {
       mesh.tets.push_back(NextTet(*tetrahedra, index_of));
       mesh.regions.push_back(tetrahedra->NextInt("a region tag"));

@@ -22,15 +22,13 @@ double VolumeTolerance(const TetMesh& mesh, const std::array<int, 4>& tet) {
   double max_squared_length = 0.0;
   double max_coordinate = 0.0;
   for (const auto& [a, b] : internal::kTetEdges) {
-    max_squared_length =
-        std::max(max_squared_length, (mesh.points[tet[a]] - mesh.points[tet[b]]).squaredNorm());
+    max_squared_length = std::max(max_squared_length, (mesh.points[tet[a]] - mesh.points[tet[b]]).squaredNorm());
   }
   for (const int v : tet) {
     max_coordinate = std::max(max_coordinate, mesh.points[v].cwiseAbs().maxCoeff());
   }
   // An error of the coordinates moves a face of at most this area by a few times that much.
-  return max_squared_length *
-         (kRelative * std::sqrt(max_squared_length) + 4.0 * kEpsilon * max_coordinate);
+  return max_squared_length * (kRelative * std::sqrt(max_squared_length) + 4.0 * kEpsilon * max_coordinate);
 }
 
 void InspectVolumes(const TetMesh& mesh, MeshInspection* result) {
@@ -87,17 +85,15 @@ void InspectNeighbours(const TetMesh& mesh, MeshInspection* result) {
                   [&](const Simplex<4>&, int count) { result->duplicate_tets += count - 1; });
 
   std::vector<std::array<int, 3>> boundary;
-  ForEachDistinct(SortedSimplices(mesh.tets, internal::kTetFaces, num_points),
-                  [&](const Simplex<3>& face, int count) {
-                    result->overfull_triangles += count > 2;
-                    if (count == 1) {
-                      boundary.push_back(face.vertices);
-                    }
-                  });
+  ForEachDistinct(SortedSimplices(mesh.tets, internal::kTetFaces, num_points), [&](const Simplex<3>& face, int count) {
+    result->overfull_triangles += count > 2;
+    if (count == 1) {
+      boundary.push_back(face.vertices);
+    }
+  });
   constexpr std::array<std::array<int, 2>, 3> kTriangleEdges = {{{0, 1}, {1, 2}, {0, 2}}};
-  ForEachDistinct(
-      SortedSimplices(boundary, kTriangleEdges, num_points),
-      [&](const Simplex<2>&, int count) { result->non_manifold_boundary_edges += count != 2; });
+  ForEachDistinct(SortedSimplices(boundary, kTriangleEdges, num_points),
+                  [&](const Simplex<2>&, int count) { result->non_manifold_boundary_edges += count != 2; });
 }
 
 }  // namespace
@@ -125,18 +121,15 @@ std::vector<std::string> MeshWarnings(const MeshInspection& inspection) {
   }
   warn(inspection.zero_volume_tets, "tetrahedron has zero volume", "tetrahedra have zero volume");
   warn(inspection.duplicate_tets, "tetrahedron repeats another", "tetrahedra repeat another");
-  warn(inspection.isolated_vertices, "vertex belongs to no tetrahedron",
-       "vertices belong to no tetrahedron");
+  warn(inspection.isolated_vertices, "vertex belongs to no tetrahedron", "vertices belong to no tetrahedron");
   warn(inspection.duplicate_vertices, "vertex coincides with another (a crack?)",
        "vertices coincide with another (cracks?)");
   if (inspection.components > 1) {
-    warnings.push_back("the mesh has " + std::to_string(inspection.components) +
-                       " separate components");
+    warnings.push_back("the mesh has " + std::to_string(inspection.components) + " separate components");
   }
   warn(inspection.overfull_triangles, "triangle belongs to more than two tetrahedra",
        "triangles belong to more than two tetrahedra");
-  warn(inspection.non_manifold_boundary_edges,
-       "edge of the boundary is not shared by exactly two of its triangles",
+  warn(inspection.non_manifold_boundary_edges, "edge of the boundary is not shared by exactly two of its triangles",
        "edges of the boundary are not shared by exactly two of its triangles");
   return warnings;
 }

@@ -34,9 +34,7 @@ constexpr std::pair<std::string_view, std::string_view> kOtherContents[] = {
     {"OVM", "an OpenVolumeMesh file"},
 };
 
-bool StartsWith(std::string_view text, std::string_view start) {
-  return text.substr(0, start.size()) == start;
-}
+bool StartsWith(std::string_view text, std::string_view start) { return text.substr(0, start.size()) == start; }
 
 const Format& FormatOfExtension(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
@@ -61,8 +59,8 @@ void CheckContent(const std::string& path, std::string_view text, const Format& 
     return;
   }
   const auto fail = [&](std::string_view content) {
-    throw std::runtime_error(path + ": this is " + std::string(content) + ", not " +
-                             std::string(format.name) + " as the extension says");
+    throw std::runtime_error(path + ": this is " + std::string(content) + ", not " + std::string(format.name) +
+                             " as the extension says");
   };
   for (const auto& [signature, content] : kOtherContents) {
     if (StartsWith(text, signature)) {
@@ -86,8 +84,7 @@ TetMesh ReadTetMesh(const std::filesystem::path& path, std::vector<std::string>*
   const Format& format = FormatOfExtension(path);
   const std::string content = internal::ReadTextFile(path);
   std::string_view text = content;
-  if (constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-      StartsWith(text, kByteOrderMark)) {
+  if (constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF"; StartsWith(text, kByteOrderMark)) {
     text.remove_prefix(kByteOrderMark.size());
   }
   CheckContent(path.string(), text, format);
@@ -107,8 +104,7 @@ TetMesh ReadTetMesh(const std::filesystem::path& path, std::vector<std::string>*
       }
     }
     if (parsed.curved_tets > 0) {
-      warnings->push_back(std::to_string(parsed.curved_tets) +
-                          " tetrahedra of higher order are read as their corners");
+      warnings->push_back(std::to_string(parsed.curved_tets) + " tetrahedra of higher order are read as their corners");
     }
   }
   return std::move(parsed.mesh);

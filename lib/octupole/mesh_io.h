@@ -25,7 +25,6 @@ namespace octupole {
 /// \throw std::runtime_error "path:line: what is wrong", or "path: what is wrong" where no line is
 /// to blame: the file cannot be read, is no such mesh, is cut off or damaged, has an index out of
 /// range or twice in a tetrahedron, a coordinate that is not finite, or no tetrahedra.
-TetMesh ReadTetMesh(const std::filesystem::path& path,
-                    std::vector<std::string>* warnings = nullptr);
+TetMesh ReadTetMesh(const std::filesystem::path& path, std::vector<std::string>* warnings = nullptr);
 
 }  // namespace octupole

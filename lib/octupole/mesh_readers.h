@@ -58,11 +58,9 @@ std::array<int, 4> NextTet(TextTokenizer& tokens, const IndexOf& index_of) {
 }
 
 /// The `index_of` of formats that number all vertices in order from `first`.
-inline int IndexInOrder(const TextTokenizer& tokens, std::int64_t number, int first,
-                        std::size_t num_points) {
+inline int IndexInOrder(const TextTokenizer& tokens, std::int64_t number, int first, std::size_t num_points) {
   if (number < first || number - first >= static_cast<std::int64_t>(num_points)) {
-    tokens.Fail("vertex index " + std::to_string(number) + " is out of range " +
-                std::to_string(first) + ".." +
+    tokens.Fail("vertex index " + std::to_string(number) + " is out of range " + std::to_string(first) + ".." +
                 std::to_string(static_cast<std::int64_t>(num_points) + first - 1));
   }
   return static_cast<int>(number - first);

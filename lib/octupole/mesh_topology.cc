@@ -25,16 +25,14 @@ std::vector<std::array<int, N>> DistinctVertices(const std::vector<Simplex<N>>& 
   ForEachDistinct(sorted, [&](const Simplex<N>&, int) { ++num_distinct; });
   std::vector<std::array<int, N>> distinct;
   distinct.reserve(num_distinct);
-  ForEachDistinct(sorted,
-                  [&](const Simplex<N>& simplex, int) { distinct.push_back(simplex.vertices); });
+  ForEachDistinct(sorted, [&](const Simplex<N>& simplex, int) { distinct.push_back(simplex.vertices); });
   return distinct;
 }
 
 /// The face of a tetrahedron with the given ascending vertices, turned outward.
 std::array<int, 3> OutwardFace(const TetMesh& mesh, const Simplex<3>& face) {
   // In a tetrahedron of positive volume these corners turn outward.
-  constexpr std::array<std::array<int, 3>, 4> kOutwardFaces = {
-      {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
+  constexpr std::array<std::array<int, 3>, 4> kOutwardFaces = {{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
   const std::array<int, 4>& tet = mesh.tets[face.cell];
   std::array<int, 3> triangle;
   for (const std::array<int, 3>& corners : kOutwardFaces) {
@@ -61,12 +59,11 @@ std::vector<std::array<int, 3>> MeshTriangles(const TetMesh& mesh) {
 
 std::vector<std::array<int, 3>> BoundaryTriangles(const TetMesh& mesh) {
   std::vector<std::array<int, 3>> boundary;
-  ForEachDistinct(SortedSimplices(mesh.tets, kTetFaces, mesh.points.size()),
-                  [&](const Simplex<3>& face, int count) {
-                    if (count == 1) {
-                      boundary.push_back(OutwardFace(mesh, face));
-                    }
-                  });
+  ForEachDistinct(SortedSimplices(mesh.tets, kTetFaces, mesh.points.size()), [&](const Simplex<3>& face, int count) {
+    if (count == 1) {
+      boundary.push_back(OutwardFace(mesh, face));
+    }
+  });
   return boundary;
 }
 

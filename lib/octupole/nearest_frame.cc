@@ -15,9 +15,9 @@
 namespace octupole {
 namespace {
 
-// The square of the reach of the octahedral unit harmonics in the Euclidean metric: 2/3 in degree 3, sqrt(5/12) in degree 4
-// (frame_test.cc computes it). A stationary frame nearer than that is the nearest of all (Federer, Curvature measures,
-// 1959, theorem 4.8).
+// The square of the reach of the octahedral unit harmonics in the Euclidean metric: 2/3 in degree 3, sqrt(5/12) in
+// degree 4 (frame_test.cc computes it). A stationary frame nearer than that is the nearest of all (Federer, Curvature
+// measures, 1959, theorem 4.8).
 template <int kDegree>
 constexpr double kSquaredReach = kDegree == 3 ? 4. / 9 : 5. / 12;
 
@@ -138,8 +138,9 @@ double LowestEigenvalue(const Eigen::Matrix3d& matrix) {
   return mean + 2 * spread * std::cos((std::acos(cosine) + 2 * EIGEN_PI) / 3);
 }
 
-// The step of Newton's method towards a maximum. Where the curvature is not positive it is shifted until it is: a little for
-// a flat direction, along which the gradient is rounding, and beyond the most negative curvature near saddles and minima.
+// The step of Newton's method towards a maximum. Where the curvature is not positive it is shifted until it is: a
+// little for a flat direction, along which the gradient is rounding, and beyond the most negative curvature near
+// saddles and minima.
 Eigen::Vector3d AscentStep(const Eigen::Vector3d& gradient, const Eigen::Matrix3d& hessian) {
   // Of a unit harmonic the curvatures are at most about 7.
   constexpr double kFlat = 1e-7;

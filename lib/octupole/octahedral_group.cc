@@ -1,6 +1,7 @@
 #include "octupole/octahedral_group.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace octupole {
@@ -44,17 +45,34 @@ const std::array<OctahedralRotation, 24>& OctahedralGroup() {
 
 OctahedralRotation MatchFrames(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
   const Eigen::Matrix3d q = a.transpose() * b;
-  const OctahedralRotation* best = &OctahedralGroup()[0];
+  // For each order of the axes the best signs are those of the entries, but for the smallest entry's when they would
+  // make a reflection.
+  OctahedralRotation best;
   double best_trace = -std::numeric_limits<double>::infinity();
-  for (const OctahedralRotation& g : OctahedralGroup()) {
-    double trace = 0;
-    for (int i = 0; i < 3; ++i) trace += g.sign[i] * q(i, g.axis[i]);
-    if (trace > best_trace) {
+  for (int first = 0; first < 3; ++first) {
+    for (const int parity : {1, -1}) {
+      OctahedralRotation g;
+      g.axis = {first, (first + 3 + parity) % 3, (first + 3 - parity) % 3};
+      double trace = 0;
+      int product = parity, smallest = 0;
+      std::array<double, 3> entries;
+      for (int i = 0; i < 3; ++i) {
+        entries[i] = std::abs(q(i, g.axis[i]));
+        g.sign[i] = q(i, g.axis[i]) < 0 ? -1 : 1;
+        product *= g.sign[i];
+        trace += entries[i];
+        if (entries[i] < entries[smallest]) smallest = i;
+      }
+      if (product < 0) {
+        g.sign[smallest] = -g.sign[smallest];
+        trace -= 2 * entries[smallest];
+      }
+      if (trace <= best_trace) continue;
       best_trace = trace;
-      best = &g;
+      best = g;
     }
   }
-  return *best;
+  return best;
 }
 
 bool IsSingularTriangle(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b, const Eigen::Matrix3d& c) {

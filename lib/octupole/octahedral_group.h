@@ -12,8 +12,8 @@ struct OctahedralRotation {
   std::array<int, 3> sign = {1, 1, 1};
 
   Eigen::Matrix3d matrix() const;
-  /// Whether it belongs to A4, the rotations of the tetrahedron. They permute the axes cyclically and leave the reference
-  /// octupole alone; the others turn it into its negative.
+  /// Whether it belongs to A4, the rotations of the tetrahedron. They permute the axes cyclically and leave the
+  /// reference octupole alone; the others turn it into its negative.
   bool IsEven() const { return axis[1] == (axis[0] + 1) % 3; }
   OctahedralRotation operator*(const OctahedralRotation& other) const;
   bool operator==(const OctahedralRotation& other) const { return axis == other.axis && sign == other.sign; }

@@ -12,13 +12,13 @@ namespace octupole {
 ///
 /// They are the five real degree-2 harmonics of the vector of generators G, hence rotate among themselves and are
 /// mutually orthogonal in the Frobenius product, with equal norms (84 squared in degree 3). In order:
-/// N_1 = (3 G_z^2 - G^2)/3 = diag((l(l+1) - 3 m^2)/3), then those of yz and xz, then the pair of xy and x^2 - y^2 that the
-/// paper omits (theory.md, errata 1).
+/// N_1 = (3 G_z^2 - G^2)/3 = diag((l(l+1) - 3 m^2)/3), then those of yz and xz, then the pair of xy and x^2 - y^2 that
+/// the paper omits (theory.md, errata 1).
 template <int kDegree>
 const std::array<HarmonicMatrix<kDegree>, 5>& Quadrics();
 
-/// The paper's M_1, M_2, M_3 (eqs. 2.2 to 2.4): three of the five, the last two times sqrt(2) and in another order. Their
-/// common zeros on the unit sphere are not all octahedral; an example is sqrt(5/8) Y_{3,1} - sqrt(3/8) Y_{3,3}.
+/// The paper's M_1, M_2, M_3 (eqs. 2.2 to 2.4): three of the five, the last two times sqrt(2) and in another order.
+/// Their common zeros on the unit sphere are not all octahedral; an example is sqrt(5/8) Y_{3,1} - sqrt(3/8) Y_{3,3}.
 std::array<HarmonicMatrix<3>, 3> PaperQuadrics();
 
 /// The five values h^T N_k h. Their squared norm is the deviation d(h). The scalar may be a ceres::Jet.

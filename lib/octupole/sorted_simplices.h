@@ -9,10 +9,8 @@
 namespace octupole::internal {
 
 /// The corners of a tetrahedron's edges and faces.
-inline constexpr std::array<std::array<int, 2>, 6> kTetEdges = {
-    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
-inline constexpr std::array<std::array<int, 3>, 4> kTetFaces = {
-    {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}}};
+inline constexpr std::array<std::array<int, 2>, 6> kTetEdges = {{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+inline constexpr std::array<std::array<int, 3>, 4> kTetFaces = {{{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}}};
 
 /// The vertices of an edge, face or tetrahedron in ascending order, and the cell it was taken from.
 template <std::size_t N>
@@ -27,8 +25,7 @@ struct Simplex {
 /// large sort.
 template <std::size_t N, std::size_t M, std::size_t K>
 std::vector<Simplex<N>> SortedSimplices(std::vector<std::array<int, M>> cells,
-                                        const std::array<std::array<int, N>, K>& pattern,
-                                        std::size_t num_points) {
+                                        const std::array<std::array<int, N>, K>& pattern, std::size_t num_points) {
   std::vector<std::size_t> bucket_begin(num_points + 1, 0);
   for (std::array<int, M>& cell : cells) {
     for (std::size_t i = 0; i < M; ++i) {

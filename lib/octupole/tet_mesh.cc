@@ -7,9 +7,7 @@
 namespace octupole {
 namespace {
 
-[[noreturn]] void Fail(const std::string& message) {
-  throw std::invalid_argument("CheckTetMesh: " + message);
-}
+[[noreturn]] void Fail(const std::string& message) { throw std::invalid_argument("CheckTetMesh: " + message); }
 
 }  // namespace
 
@@ -18,8 +16,7 @@ void CheckTetMesh(const TetMesh& mesh) {
     Fail("the mesh has no tetrahedra");
   }
   if (!mesh.regions.empty() && mesh.regions.size() != mesh.tets.size()) {
-    Fail(std::to_string(mesh.regions.size()) + " regions for " + std::to_string(mesh.tets.size()) +
-         " tetrahedra");
+    Fail(std::to_string(mesh.regions.size()) + " regions for " + std::to_string(mesh.tets.size()) + " tetrahedra");
   }
   const int num_points = static_cast<int>(mesh.points.size());
   for (int v = 0; v < num_points; ++v) {
@@ -33,13 +30,12 @@ void CheckTetMesh(const TetMesh& mesh) {
     const std::array<int, 4>& tet = mesh.tets[t];
     for (int i = 0; i < 4; ++i) {
       if (tet[i] < 0 || tet[i] >= num_points) {
-        Fail("tetrahedron " + std::to_string(t) + " has the vertex index " +
-             std::to_string(tet[i]) + ", out of range 0.." + std::to_string(num_points - 1));
+        Fail("tetrahedron " + std::to_string(t) + " has the vertex index " + std::to_string(tet[i]) +
+             ", out of range 0.." + std::to_string(num_points - 1));
       }
       for (int j = 0; j < i; ++j) {
         if (tet[i] == tet[j]) {
-          Fail("tetrahedron " + std::to_string(t) + " has vertex " + std::to_string(tet[i]) +
-               " twice");
+          Fail("tetrahedron " + std::to_string(t) + " has vertex " + std::to_string(tet[i]) + " twice");
         }
       }
     }

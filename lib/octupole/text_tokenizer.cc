@@ -41,17 +41,13 @@ std::string ReadTextFile(const std::filesystem::path& path) {
     file.read(text.data(), static_cast<std::streamsize>(size));
   }
   if (!file) {
-    throw std::runtime_error(path.string() +
-                             ": cannot be read: " + std::generic_category().message(errno));
+    throw std::runtime_error(path.string() + ": cannot be read: " + std::generic_category().message(errno));
   }
   return text;
 }
 
 TextTokenizer::TextTokenizer(std::string path, std::string_view text, char comment)
-    : path_(std::move(path)),
-      next_(text.data()),
-      end_(text.data() + text.size()),
-      comment_(comment) {}
+    : path_(std::move(path)), next_(text.data()), end_(text.data() + text.size()), comment_(comment) {}
 
 void TextTokenizer::SkipSpace() {
   while (next_ != end_) {
@@ -152,8 +148,7 @@ int TextTokenizer::NextCount(const char* what, int words_each) {
   // Every word takes two bytes at least, with the white space before it.
   const std::int64_t bytes = end_ - next_;
   if (count > bytes / 2 / words_each || count > std::numeric_limits<int>::max()) {
-    Fail(std::to_string(count) + " " + what + " announced, but only " + std::to_string(bytes) +
-         " bytes follow");
+    Fail(std::to_string(count) + " " + what + " announced, but only " + std::to_string(bytes) + " bytes follow");
   }
   expected_items_ = std::to_string(count) + " " + what;
   return static_cast<int>(count);

@@ -57,11 +57,10 @@ const char* OtherCells(int type) {
 }
 
 bool IsIntegerType(std::string_view type) {
-  constexpr std::string_view kIntegerTypes[] = {
-      "char", "unsigned_char", "short",        "unsigned_short", "int",          "unsigned_int",
-      "long", "unsigned_long", "vtktypeint64", "vtktypeuint64",  "vtktypeint32", "vtkIdType"};
-  return std::find(std::begin(kIntegerTypes), std::end(kIntegerTypes), type) !=
-         std::end(kIntegerTypes);
+  constexpr std::string_view kIntegerTypes[] = {"char",         "unsigned_char", "short",        "unsigned_short",
+                                                "int",          "unsigned_int",  "long",         "unsigned_long",
+                                                "vtktypeint64", "vtktypeuint64", "vtktypeint32", "vtkIdType"};
+  return std::find(std::begin(kIntegerTypes), std::end(kIntegerTypes), type) != std::end(kIntegerTypes);
 }
 
 void ReadHeader(TextTokenizer& tokens) {
@@ -102,8 +101,7 @@ CellSection ReadCellSection(TextTokenizer& tokens) {
       cells.offsets.push_back(tokens.NextInteger("an offset"));
       const std::int64_t previous = i == 0 ? 0 : cells.offsets[i - 1];
       if (cells.offsets[i] < previous || (i == 0 && cells.offsets[0] != 0)) {
-        tokens.Fail("offset " + std::to_string(cells.offsets[i]) + " does not fit behind " +
-                    std::to_string(previous));
+        tokens.Fail("offset " + std::to_string(cells.offsets[i]) + " does not fit behind " + std::to_string(previous));
       }
     }
     cells.num_cells = std::max(0, cells.num_cells - 1);
@@ -146,13 +144,11 @@ std::vector<int> ReadRegions(TextTokenizer& tokens, std::string_view section, in
   return regions;
 }
 
-void ReadCells(const CellSection& section, const std::vector<int>& types,
-               const std::vector<int>& regions, ParsedMesh* result) {
+void ReadCells(const CellSection& section, const std::vector<int>& types, const std::vector<int>& regions,
+               ParsedMesh* result) {
   TetMesh& mesh = result->mesh;
   TextTokenizer tokens = section.start;
-  const auto index_of = [&](std::int64_t number) {
-    return IndexInOrder(tokens, number, 0, mesh.points.size());
-  };
+  const auto index_of = [&](std::int64_t number) { return IndexInOrder(tokens, number, 0, mesh.points.size()); };
   std::int64_t num_words = 0;
   for (int c = 0; c < section.num_cells; ++c) {
     std::int64_t size = 0;
@@ -176,8 +172,7 @@ void ReadCells(const CellSection& section, const std::vector<int>& types,
       continue;
     }
     if (size != tet_size) {
-      tokens.Fail("a tetrahedron of " + std::to_string(size) + " vertices instead of " +
-                  std::to_string(tet_size));
+      tokens.Fail("a tetrahedron of " + std::to_string(size) + " vertices instead of " + std::to_string(tet_size));
     }
     mesh.tets.push_back(NextTet(tokens, index_of));
     tokens.SkipWords(tet_size - 4);
@@ -187,8 +182,8 @@ void ReadCells(const CellSection& section, const std::vector<int>& types,
     }
   }
   if (num_words != section.num_words) {
-    tokens.Fail("the cells have " + std::to_string(num_words) + " entries, but " +
-                std::to_string(section.num_words) + " were announced");
+    tokens.Fail("the cells have " + std::to_string(num_words) + " entries, but " + std::to_string(section.num_words) +
+                " were announced");
   }
 }
 
@@ -217,8 +212,8 @@ ParsedMesh ReadVtk(const std::string& path, std::string_view text) {
     } else if (word == "CELL_TYPES" && types.empty()) {
       const int num_types = tokens.NextCount("cell types", 1);
       if (!cells || num_types != cells->num_cells) {
-        tokens.Fail(std::to_string(num_types) + " cell types for " +
-                    std::to_string(cells ? cells->num_cells : 0) + " cells");
+        tokens.Fail(std::to_string(num_types) + " cell types for " + std::to_string(cells ? cells->num_cells : 0) +
+                    " cells");
       }
       types.reserve(num_types);
       for (int i = 0; i < num_types; ++i) {
@@ -231,8 +226,7 @@ ParsedMesh ReadVtk(const std::string& path, std::string_view text) {
     }
   }
   for (const auto& [is_missing, section] :
-       {std::pair(points.empty(), "POINTS"), std::pair(!cells, "CELLS"),
-        std::pair(types.empty(), "CELL_TYPES")}) {
+       {std::pair(points.empty(), "POINTS"), std::pair(!cells, "CELLS"), std::pair(types.empty(), "CELL_TYPES")}) {
     if (is_missing) {
       throw std::runtime_error(path + ": the section " + section + " is missing or empty");
     }

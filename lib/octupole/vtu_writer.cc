@@ -40,8 +40,7 @@ class Base64Stream {
 
  private:
   void Flush() {
-    constexpr std::string_view kDigits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     constexpr std::size_t kBufferSize = 1 << 16;
     if (buffer_.size() >= kBufferSize) {
       out_ << buffer_;
@@ -81,8 +80,8 @@ std::string XmlEscaped(const std::string& text) {
 }
 
 /// Writes a DataArray element. The data are the number of bytes, then the bytes.
-void WriteArray(std::ostream& out, std::string_view type, const std::string& name, int components,
-                const void* data, std::uint64_t num_bytes) {
+void WriteArray(std::ostream& out, std::string_view type, const std::string& name, int components, const void* data,
+                std::uint64_t num_bytes) {
   out << "<DataArray type=\"" << type << "\" Name=\"" << XmlEscaped(name) << '"';
   if (components > 1) {  // meshio makes a matrix of one column of an explicit 1
     out << " NumberOfComponents=\"" << components << '"';
@@ -100,8 +99,8 @@ void WritePointArray(std::ostream& out, const VtuArray& array, std::size_t num_p
   if (const auto* doubles = std::get_if<const double*>(&array.values)) {
     WriteArray(out, "Float64", array.name, array.components, *doubles, num_values * sizeof(double));
   } else {
-    WriteArray(out, "Int32", array.name, array.components,
-               std::get<const std::int32_t*>(array.values), num_values * sizeof(std::int32_t));
+    WriteArray(out, "Int32", array.name, array.components, std::get<const std::int32_t*>(array.values),
+               num_values * sizeof(std::int32_t));
   }
 }
 
@@ -113,13 +112,11 @@ void WriteContent(std::ostream& out, const TetMesh& mesh, const std::vector<VtuA
   std::memcpy(&low_byte, &one, 1);
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\""
       << (low_byte == 1 ? "LittleEndian" : "BigEndian") << "\" header_type=\"UInt64\">\n"
-      << "<UnstructuredGrid>\n<Piece NumberOfPoints=\"" << mesh.points.size()
-      << "\" NumberOfCells=\"" << mesh.tets.size() << "\">\n<Points>\n";
-  WriteArray(out, "Float64", "Points", 3, mesh.points.data(),
-             mesh.points.size() * sizeof(Eigen::Vector3d));
+      << "<UnstructuredGrid>\n<Piece NumberOfPoints=\"" << mesh.points.size() << "\" NumberOfCells=\""
+      << mesh.tets.size() << "\">\n<Points>\n";
+  WriteArray(out, "Float64", "Points", 3, mesh.points.data(), mesh.points.size() * sizeof(Eigen::Vector3d));
   out << "</Points>\n<Cells>\n";
-  WriteArray(out, "Int32", "connectivity", 1, mesh.tets.data(),
-             mesh.tets.size() * sizeof(std::array<int, 4>));
+  WriteArray(out, "Int32", "connectivity", 1, mesh.tets.data(), mesh.tets.size() * sizeof(std::array<int, 4>));
   std::vector<std::int64_t> offsets(mesh.tets.size());
   for (std::size_t t = 0; t < offsets.size(); ++t) {
     offsets[t] = 4 * static_cast<std::int64_t>(t + 1);
@@ -133,8 +130,7 @@ void WriteContent(std::ostream& out, const TetMesh& mesh, const std::vector<VtuA
   }
   out << "</PointData>\n<CellData>\n";
   if (!mesh.regions.empty()) {
-    WriteArray(out, "Int32", "region", 1, mesh.regions.data(),
-               mesh.regions.size() * sizeof(mesh.regions[0]));
+    WriteArray(out, "Int32", "region", 1, mesh.regions.data(), mesh.regions.size() * sizeof(mesh.regions[0]));
   }
   out << "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }
@@ -157,8 +153,7 @@ void CheckArrays(const std::vector<VtuArray>& point_data) {
 
 }  // namespace
 
-void WriteVtu(const std::filesystem::path& path, const TetMesh& mesh,
-              const std::vector<VtuArray>& point_data) {
+void WriteVtu(const std::filesystem::path& path, const TetMesh& mesh, const std::vector<VtuArray>& point_data) {
   CheckArrays(point_data);
   WriteFileAtomically(path, [&](std::ostream& out) { WriteContent(out, mesh, point_data); });
 }

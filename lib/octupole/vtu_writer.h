@@ -23,7 +23,6 @@ struct VtuArray {
 ///
 /// \throw std::invalid_argument if an array has no values, name or components.
 /// \throw std::runtime_error naming the path and the cause if the file cannot be written.
-void WriteVtu(const std::filesystem::path& path, const TetMesh& mesh,
-              const std::vector<VtuArray>& point_data);
+void WriteVtu(const std::filesystem::path& path, const TetMesh& mesh, const std::vector<VtuArray>& point_data);
 
 }  // namespace octupole

@@ -17,20 +17,6 @@
 namespace octupole {
 namespace {
 
-template <int kDegree>
-void CheckField(const FieldGraph& graph, const std::vector<Harmonic<kDegree>>& field) {
-  const auto fail = [](const std::string& what) { throw std::invalid_argument("BuildFieldProblem: " + what); };
-  if (field.size() != graph.num_vertices()) {
-    fail(std::to_string(field.size()) + " starting values for " + std::to_string(graph.num_vertices()) + " vertices");
-  }
-  for (std::size_t v = 0; v < field.size(); ++v) {
-    if (field[v].allFinite()) continue;
-    std::ostringstream message;
-    message << "the starting value of vertex " << v << " is not finite: [" << field[v].transpose() << "]";
-    fail(message.str());
-  }
-}
-
 // The nearest allowed value; for a prescribed frame its unit harmonic, with the sign nearer to h in degree 3.
 template <int kDegree>
 Harmonic<kDegree> Align(const Alignment& alignment, const Harmonic<kDegree>& h) {
@@ -41,6 +27,20 @@ Harmonic<kDegree> Align(const Alignment& alignment, const Harmonic<kDegree>& h) 
 }
 
 }  // namespace
+
+template <int kDegree>
+void CheckField(const char* caller, const FieldGraph& graph, const std::vector<Harmonic<kDegree>>& field) {
+  const auto fail = [&](const std::string& what) { throw std::invalid_argument(caller + (": " + what)); };
+  if (field.size() != graph.num_vertices()) {
+    fail(std::to_string(field.size()) + " starting values for " + std::to_string(graph.num_vertices()) + " vertices");
+  }
+  for (std::size_t v = 0; v < field.size(); ++v) {
+    if (field[v].allFinite()) continue;
+    std::ostringstream message;
+    message << "the starting value of vertex " << v << " is not finite: [" << field[v].transpose() << "]";
+    fail(message.str());
+  }
+}
 
 template <int kDegree>
 std::vector<Harmonic<kDegree>> RandomField(const FieldGraph& graph, std::uint32_t seed) {
@@ -65,7 +65,7 @@ template <int kDegree>
 void BuildFieldProblem(const FieldGraph& graph, const EnergyWeights& weights, std::vector<Harmonic<kDegree>>* field,
                        ceres::Problem* problem) {
   CheckFieldGraph(graph);
-  CheckField<kDegree>(graph, *field);
+  CheckField<kDegree>("BuildFieldProblem", graph, *field);
   RootOfWeight("BuildFieldProblem (scale)", weights.scale);
   RootOfWeight("BuildFieldProblem (deviation)", weights.deviation);
 
@@ -102,6 +102,8 @@ void BuildFieldProblem(const FieldGraph& graph, const EnergyWeights& weights, st
 
 template std::vector<Octupole> RandomField<3>(const FieldGraph&, std::uint32_t);
 template std::vector<Hexadecapole> RandomField<4>(const FieldGraph&, std::uint32_t);
+template void CheckField<3>(const char*, const FieldGraph&, const std::vector<Octupole>&);
+template void CheckField<4>(const char*, const FieldGraph&, const std::vector<Hexadecapole>&);
 template void BuildFieldProblem<3>(const FieldGraph&, const EnergyWeights&, std::vector<Octupole>*, ceres::Problem*);
 template void BuildFieldProblem<4>(const FieldGraph&, const EnergyWeights&, std::vector<Hexadecapole>*,
                                    ceres::Problem*);

@@ -10,8 +10,8 @@
 
 namespace octupole {
 
-/// The weights w1 and w2 of the penalty w1 (|a|^2 - 1)^2 + w2 d(a) at each vertex (paper, eq. 4.1). Smoothness terms carry the
-/// weights of the graph's edges.
+/// The weights w1 and w2 of the penalty w1 (|a|^2 - 1)^2 + w2 d(a) at each vertex (paper, eq. 4.1). Smoothness terms
+/// carry the weights of the graph's edges.
 struct EnergyWeights {
   double scale = 5;
   /// In degree 3 scale / 20 makes the penalty equally stiff in all directions off the manifold (theory.md, section 2).
@@ -21,6 +21,10 @@ struct EnergyWeights {
 /// A starting field: at each vertex the harmonic of a uniformly random frame that keeps to the vertex's alignment.
 template <int kDegree>
 std::vector<Harmonic<kDegree>> RandomField(const FieldGraph& graph, std::uint32_t seed);
+
+/// Throws std::invalid_argument, its message beginning with `caller`, unless `field` has one finite value per vertex.
+template <int kDegree>
+void CheckField(const char* caller, const FieldGraph& graph, const std::vector<Harmonic<kDegree>>& field);
 
 /// Fills `problem` with the field energy of a graph (cost_weight.h states it), with hard alignments:
 ///  - an AnalyticSmoothnessCost for every edge of positive weight, one cost object for each distinct weight,
@@ -33,8 +37,8 @@ std::vector<Harmonic<kDegree>> RandomField(const FieldGraph& graph, std::uint32_
 /// The caller owns the problem, can add terms of their own and solve as they like. Smoothness, scale and deviation
 /// costs and the manifolds belong to the problem, as is the default of ceres::Problem::Options.
 ///
-/// \throw std::invalid_argument when the graph is malformed (see CheckFieldGraph), the field has another size or a value
-/// that is not finite, or a weight is negative or not finite. The problem is unchanged then.
+/// \throw std::invalid_argument when the graph is malformed (see CheckFieldGraph), the field has another size or a
+/// value that is not finite, or a weight is negative or not finite. The problem is unchanged then.
 template <int kDegree>
 void BuildFieldProblem(const FieldGraph& graph, const EnergyWeights& weights, std::vector<Harmonic<kDegree>>* field,
                        ceres::Problem* problem);

@@ -21,9 +21,9 @@ enum class SolverPreset {
 /// The preset that suits a mesh of `num_vertices`, among those that this build of Ceres has.
 SolverPreset ChooseSolverPreset(std::size_t num_vertices);
 
-/// The options of a preset, silent and on one thread; change whatever you like. Sparse Cholesky uses SuiteSparse where Ceres was
-/// built with it, else another library that it has.
-/// \throw std::runtime_error for kSparseCholesky when Ceres was built without any sparse linear algebra library.
+/// The options of a preset, silent and on one thread; change whatever you like. Sparse Cholesky uses SuiteSparse where
+/// Ceres was built with it, else another library that it has. \throw std::runtime_error for kSparseCholesky when Ceres
+/// was built without any sparse linear algebra library.
 ceres::Solver::Options MakeSolverOptions(SolverPreset preset);
 
 }  // namespace octupole

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "octupole/alignment.h"
+#include "octupole/harmonics.h"
+
+namespace octupole {
+
+/// The frame nearest to the harmonic h among those that keep to an alignment. Free: NearestFrame. An axis: the nearest
+/// on the circle of AlignedSubspace, in closed form; its third column is the axis. A frame: that frame. Where h says
+/// nothing, zero or across the subspace of the axis, any such frame.
+/// \throw std::invalid_argument when h is not finite.
+template <int kDegree>
+Eigen::Matrix3d NearestAlignedFrame(const Alignment& alignment, const Harmonic<kDegree>& h);
+
+}  // namespace octupole
