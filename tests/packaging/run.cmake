@@ -39,7 +39,9 @@ file(RENAME ${WORK_DIR}/staged ${WORK_DIR}/prefix)
 file(GLOB_RECURSE package_files ${WORK_DIR}/prefix/*.cmake)
 foreach(package_file IN LISTS package_files)
   file(READ ${package_file} content)
-  foreach(unwanted INTERFACE_COMPILE_OPTIONS INTERFACE_LINK_OPTIONS ${SOURCE_DIR} ${WORK_DIR}/staged)
+  # Paths begin after a quote or a semicolon: the sources may lie in a folder whose name is part of the package's own paths.
+  string(REPLACE ";" "\"" content "${content}")
+  foreach(unwanted INTERFACE_COMPILE_OPTIONS INTERFACE_LINK_OPTIONS "\"${SOURCE_DIR}/" ${WORK_DIR}/staged)
     string(FIND "${content}" "${unwanted}" position)
     if(NOT position EQUAL -1)
       message(FATAL_ERROR "${package_file} mentions ${unwanted}")
@@ -56,7 +58,9 @@ run(FAILS "octupole has no component \"surfaces\"" ${configure} -B ${WORK_DIR}/u
     -D CMAKE_PREFIX_PATH=${WORK_DIR}/prefix "-D COMPONENTS=core;surfaces")
 
 # The sources as a part of another project: the libraries and nothing else.
-consume(add_subdirectory -D OCTUPOLE_SOURCE_DIR=${SOURCE_DIR})
+# Built is only what one component needs, as the installed libraries were built already; configured are all.
+consume(add_subdirectory -D OCTUPOLE_SOURCE_DIR=${SOURCE_DIR} -D COMPONENTS=cost_functions)
+run(${configure} -B ${WORK_DIR}/add_subdirectory_all -D OCTUPOLE_SOURCE_DIR=${SOURCE_DIR})
 foreach(folder tools tests examples benchmarks)
   if(EXISTS ${WORK_DIR}/add_subdirectory/octupole/${folder})
     message(FATAL_ERROR "add_subdirectory builds ${folder} too")
