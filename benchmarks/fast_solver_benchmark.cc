@@ -19,9 +19,9 @@
 #include <string>
 #include <vector>
 
+#include "ball_mesh.h"
 #include "octupole/aligned_frame.h"
 #include "octupole/boundary_alignment.h"
-#include "octupole/box_mesh.h"
 #include "octupole/fast_solver.h"
 #include "octupole/field_energy.h"
 #include "octupole/field_quality.h"
@@ -33,17 +33,6 @@
 
 namespace octupole {
 namespace {
-
-// The cube's grid, its concentric shells pushed onto spheres.
-TetMesh Ball(int cells) {
-  TetMesh mesh = MakeBoxMesh({cells, cells, cells}, {2, 2, 2});
-  for (Eigen::Vector3d& p : mesh.points) {
-    p -= Eigen::Vector3d::Ones();
-    const double largest = p.cwiseAbs().maxCoeff();
-    if (largest > 0) p *= largest / p.norm();
-  }
-  return mesh;
-}
 
 FieldGraph GraphOf(const TetMesh& mesh) { return MakeFieldGraph(mesh, AlignToBoundary(mesh).alignments); }
 
@@ -68,7 +57,7 @@ struct Counters {
 
 template <int kDegree>
 void Sweep(benchmark::State& state) {
-  const FieldGraph graph = GraphOf(Ball(static_cast<int>(state.range(0))));
+  const FieldGraph graph = GraphOf(MakeBallMesh(static_cast<int>(state.range(0))));
   Workers workers(static_cast<int>(state.range(1)));
   const FieldEnergy<kDegree> energy(graph, {}, &workers);
   const std::vector<double> x = energy.ParametersOf(RandomField<kDegree>(graph, 0));
@@ -84,7 +73,7 @@ void Sweep(benchmark::State& state) {
 
 template <int kDegree>
 void Copy(benchmark::State& state) {
-  const FieldGraph graph = GraphOf(Ball(static_cast<int>(state.range(0))));
+  const FieldGraph graph = GraphOf(MakeBallMesh(static_cast<int>(state.range(0))));
   Workers workers(static_cast<int>(state.range(1)));
   const std::size_t num_unknowns = FieldEnergy<kDegree>(graph, {}, &workers).NumParameters();
   const std::size_t size = 2 * num_unknowns * sizeof(double) + 2 * graph.edges.size() * sizeof(int);
@@ -101,7 +90,7 @@ void Copy(benchmark::State& state) {
 }
 
 void Growth(benchmark::State& state) {
-  const FieldGraph graph = GraphOf(Ball(static_cast<int>(state.range(0))));
+  const FieldGraph graph = GraphOf(MakeBallMesh(static_cast<int>(state.range(0))));
   FastSolverOptions options;
   options.num_threads = static_cast<int>(state.range(1));
   for (auto _ : state) {

@@ -4,26 +4,15 @@
 
 #include <string>
 
-#include "octupole/box_mesh.h"
+#include "ball_mesh.h"
 #include "octupole/field_solver.h"
 #include "octupole/solver_presets.h"
 
 namespace octupole {
 namespace {
 
-// The cube's grid, its concentric shells pushed onto spheres.
-TetMesh Ball(int cells) {
-  TetMesh mesh = MakeBoxMesh({cells, cells, cells}, {2, 2, 2});
-  for (Eigen::Vector3d& p : mesh.points) {
-    p -= Eigen::Vector3d::Ones();
-    const double largest = p.cwiseAbs().maxCoeff();
-    if (largest > 0) p *= largest / p.norm();
-  }
-  return mesh;
-}
-
 void Solve(benchmark::State& state, SolverPreset preset) {
-  const TetMesh mesh = Ball(static_cast<int>(state.range(0)));
+  const TetMesh mesh = MakeBallMesh(static_cast<int>(state.range(0)));
   FieldOptions<3> options;
   options.solver = MakeSolverOptions(preset);
   for (auto _ : state) {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "ball_mesh.h"
 #include "octupole/boundary_alignment.h"
 #include "octupole/box_mesh.h"
 #include "octupole/field_solver.h"
@@ -19,16 +20,6 @@ namespace octupole {
 namespace {
 
 FieldGraph GraphOf(const TetMesh& mesh) { return MakeFieldGraph(mesh, AlignToBoundary(mesh).alignments); }
-
-TetMesh Ball(int cells) {
-  TetMesh mesh = MakeBoxMesh({cells, cells, cells}, {2, 2, 2});
-  for (Eigen::Vector3d& p : mesh.points) {
-    p -= Eigen::Vector3d::Ones();
-    const double largest = p.cwiseAbs().maxCoeff();
-    if (largest > 0) p *= largest / p.norm();
-  }
-  return mesh;
-}
 
 double FrameEnergyOf(const FieldGraph& graph, const std::vector<Eigen::Matrix3d>& frames) {
   double sum = 0;
@@ -73,7 +64,7 @@ TYPED_TEST(FastSolverTest, FindsTheConstantFieldOfABoxFrom20Seeds) {
 
 TYPED_TEST(FastSolverTest, KeepsToACurvedBoundary) {
   constexpr int l = TypeParam::value;
-  const FieldGraph graph = GraphOf(Ball(14));
+  const FieldGraph graph = GraphOf(MakeBallMesh(14));
   const FastField<l> field = SolveFast<l>(graph, {});
   EXPECT_EQ(field.termination, ceres::CONVERGENCE);
   ExpectField<l>(field, graph);
@@ -110,7 +101,7 @@ TYPED_TEST(FastSolverTest, TakesAnyGraph) {
 
 TYPED_TEST(FastSolverTest, RepeatsOnAnyNumberOfThreads) {
   constexpr int l = TypeParam::value;
-  const FieldGraph graph = GraphOf(Ball(16));
+  const FieldGraph graph = GraphOf(MakeBallMesh(16));
   FastSolverOptions options;
   options.seed = 5;
   options.max_iterations = 120;
@@ -138,7 +129,7 @@ TYPED_TEST(FastSolverTest, StopsWhenItIsToldTo) {
     int last_;
     int num_calls_ = 0;
   };
-  const FieldGraph graph = GraphOf(Ball(14));
+  const FieldGraph graph = GraphOf(MakeBallMesh(14));
   for (const int last : {1, 30, 200}) {
     Stop stop(last);
     FastSolverOptions options;
@@ -158,7 +149,7 @@ TYPED_TEST(FastSolverTest, StopsWhenItIsToldTo) {
 
 TYPED_TEST(FastSolverTest, ContinuesFromAField) {
   constexpr int l = TypeParam::value;
-  const FieldGraph graph = GraphOf(Ball(8));
+  const FieldGraph graph = GraphOf(MakeBallMesh(8));
   const FastField<l> field = SolveFast<l>(graph, {});
   const FastField<l> again = SolveFastFrom<l>(graph, {}, field.coefficients);
   EXPECT_LE(again.energy, field.energy);
@@ -169,7 +160,7 @@ TYPED_TEST(FastSolverTest, ContinuesFromAField) {
 // The road of residual blocks, from a random start and to convergence, has nothing better to offer.
 TYPED_TEST(FastSolverTest, IsNotWorseThanCeres) {
   constexpr int l = TypeParam::value;
-  for (const TetMesh& mesh : {Ball(6), Ball(9)}) {
+  for (const TetMesh& mesh : {MakeBallMesh(6), MakeBallMesh(9)}) {
     FieldOptions<l> options;
     const Field<l> fast = SolveField<l>(mesh, options);
     options.solver = MakeSolverOptions(SolverPreset::kLbfgs);

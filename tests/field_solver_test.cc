@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "ball_mesh.h"
 #include "octupole/box_mesh.h"
 #include "octupole/field_graph.h"
 #include "octupole/field_quality.h"
@@ -102,14 +103,9 @@ TEST(SolveField, ReturnsWhatWasReachedWhenStopped) {
   EXPECT_EQ(field.frames.size(), Box().points.size());
 }
 
-// A ball made of a box: every boundary vertex keeps to the normal, and the field has to turn and be singular.
+// Every boundary vertex keeps to the normal, and the field has to turn and be singular.
 TEST(SolveField, AlignsWithACurvedBoundary) {
-  TetMesh mesh = MakeBoxMesh({8, 8, 8}, {2, 2, 2});
-  for (Eigen::Vector3d& p : mesh.points) {
-    p -= Eigen::Vector3d::Ones();
-    const double largest = p.cwiseAbs().maxCoeff();
-    if (largest > 0) p *= largest / p.norm();
-  }
+  const TetMesh mesh = MakeBallMesh(8);
   const Field<3> field = SolveField<3>(mesh, OptionsOf<3>(SolverPreset::kLbfgs, 0));
   EXPECT_EQ(field.alignment.num_normals, 9u * 9u * 9u - 7u * 7u * 7u);
   const FieldQuality quality = MeasureField(mesh, field.frames);
