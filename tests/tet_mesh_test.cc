@@ -44,6 +44,15 @@ TEST(CheckTetMesh, NamesWhatIsWrong) {
   EXPECT_EQ(CheckMessage(mesh), "CheckTetMesh: tetrahedron 1 has the vertex index -1, out of range 0..3");
   mesh.tets[1] = {3, 2, 1, 2};
   EXPECT_EQ(CheckMessage(mesh), "CheckTetMesh: tetrahedron 1 has vertex 2 twice");
+
+  mesh = OneTet();
+  mesh.feature_edges = {{0, 1}, {2, 4}};
+  EXPECT_EQ(CheckMessage(mesh), "CheckTetMesh: feature edge 1 has the vertex index 4, out of range 0..3");
+  mesh.feature_edges[1] = {2, 2};
+  EXPECT_EQ(CheckMessage(mesh), "CheckTetMesh: feature edge 1 has vertex 2 twice");
+  mesh.feature_edges.clear();
+  mesh.feature_points = {0, -1};
+  EXPECT_EQ(CheckMessage(mesh), "CheckTetMesh: feature point 1 has the vertex index -1, out of range 0..3");
 }
 
 }  // namespace

@@ -14,13 +14,17 @@ struct TetMesh {
   std::vector<std::array<int, 4>> tets;
   /// One region tag per tetrahedron, or empty when the mesh has none.
   std::vector<int> regions;
+  /// Edges of the mesh, as pairs of vertices, and points at which the file or the caller asks the field to be aligned:
+  /// creases, curves of the CAD model, corners. Empty when nothing is marked.
+  std::vector<std::array<int, 2>> feature_edges = {};
+  std::vector<int> feature_points = {};
 };
 
 /// Checks that a mesh can carry a field: at least one tetrahedron, finite points, indices in range
-/// and different within each tetrahedron, `regions` empty or one per tetrahedron. Inverted and flat
+/// and different within each tetrahedron and feature edge, `regions` empty or one per tetrahedron. Inverted and flat
 /// tetrahedra are allowed.
 ///
-/// \throw std::invalid_argument naming the first offending tetrahedron or point and its value.
+/// \throw std::invalid_argument naming the first offending tetrahedron, point or feature and its value.
 void CheckTetMesh(const TetMesh& mesh);
 
 }  // namespace octupole
