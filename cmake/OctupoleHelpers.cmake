@@ -1,11 +1,11 @@
 include(CMakePackageConfigHelpers)
 
-# octupole_add_library(<component> [HEADERS ...] [SOURCES ...] [LINK ...])
+# octupole_add_library(<component> [HEADERS ...] [SOURCES ...] [LINK ...] [LINK_PRIVATE ...])
 #
 # Makes the target octupole_<component> with the alias octupole::<component>, the current folder as its include root,
 # and an export set of its own, so that a consumer of one component needs the dependencies of that one only.
 function(octupole_add_library component)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS;SOURCES;LINK")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS;SOURCES;LINK;LINK_PRIVATE")
   set(target octupole_${component})
   if(arg_SOURCES)
     set(scope PUBLIC)
@@ -21,6 +21,9 @@ function(octupole_add_library component)
   target_compile_features(${target} ${scope} cxx_std_17)
   target_sources(${target} ${scope} FILE_SET HEADERS BASE_DIRS ${CMAKE_CURRENT_SOURCE_DIR} FILES ${arg_HEADERS})
   target_link_libraries(${target} ${scope} ${arg_LINK})
+  if(arg_LINK_PRIVATE)
+    target_link_libraries(${target} PRIVATE ${arg_LINK_PRIVATE})
+  endif()
   install(TARGETS ${target} EXPORT octupole-${component} FILE_SET HEADERS)
   install(EXPORT octupole-${component} NAMESPACE octupole::
           FILE octupole-${component}-targets.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/octupole)

@@ -1,6 +1,7 @@
 #include "octupole/vtu_writer.h"
 
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <cstring>
 #include <limits>
@@ -38,12 +39,30 @@ std::vector<T> ReadArray(const std::string& vtu, const std::string& attributes) 
     return {};
   }
   const std::size_t begin = vtu.find('>', tag) + 1;
-  const std::string bytes = DecodeBase64(vtu.substr(begin, vtu.find('<', begin) - begin));
-  std::uint64_t size = 0;
-  std::memcpy(&size, bytes.data(), sizeof(size));
-  EXPECT_EQ(size + sizeof(size), bytes.size());
-  std::vector<T> values(size / sizeof(T));
-  std::memcpy(values.data(), bytes.data() + sizeof(size), size);
+  const std::string text = vtu.substr(begin, vtu.find('<', begin) - begin);
+  // The header, of 3 numbers and one per block, is encoded on its own.
+  std::uint64_t num_blocks = 0;
+  std::memcpy(&num_blocks, DecodeBase64(text.substr(0, 12)).data(), sizeof(num_blocks));
+  std::vector<std::uint64_t> header(3 + num_blocks);
+  const std::size_t header_length = (header.size() * sizeof(header[0]) + 2) / 3 * 4;
+  std::memcpy(header.data(), DecodeBase64(text.substr(0, header_length)).data(), header.size() * sizeof(header[0]));
+  const std::string blocks = DecodeBase64(text.substr(header_length));
+  std::string bytes;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < num_blocks; ++i) {
+    const bool is_partial = i + 1 == num_blocks && header[2] > 0;
+    std::string block(is_partial ? header[2] : header[1], 0);
+    uLongf size = block.size();
+    EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(block.data()), &size,
+                         reinterpret_cast<const Bytef*>(blocks.data()) + next, header[3 + i]),
+              Z_OK);
+    EXPECT_EQ(size, block.size());
+    bytes += block;
+    next += header[3 + i];
+  }
+  EXPECT_EQ(next, blocks.size());
+  std::vector<T> values(bytes.size() / sizeof(T));
+  std::memcpy(values.data(), bytes.data(), bytes.size());
   return values;
 }
 
@@ -65,7 +84,8 @@ TEST(WriteVtu, KeepsEveryBit) {
   WriteVtu(folder / "a.vtu", mesh, {{"frame_x", 3, vectors.data()}, {"a<\"&", 1, flags.data()}});
 
   const std::string vtu = ReadText(folder / "a.vtu");
-  EXPECT_NE(vtu.find("byte_order=\"LittleEndian\" header_type=\"UInt64\""), std::string::npos);
+  EXPECT_NE(vtu.find("byte_order=\"LittleEndian\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\""),
+            std::string::npos);
   EXPECT_NE(vtu.find("<Piece NumberOfPoints=\"12\" NumberOfCells=\"12\">"), std::string::npos);
   const auto points = ReadArray<double>(vtu, R"(type="Float64" Name="Points" NumberOfComponents="3")");
   ASSERT_EQ(points.size(), 3 * num_points);
@@ -87,15 +107,37 @@ TEST(WriteVtu, KeepsEveryBit) {
   EXPECT_EQ(ReadArray<int>(vtu, R"(type="Int32" Name="region")"), mesh.regions);
 }
 
-TEST(WriteVtu, PadsAnyNumberOfBytes) {
-  // The cell types take one byte each, so these meshes end base64 in all three ways.
+TEST(WriteVtu, WritesAnyNumberOfBytes) {
+  // One double per vertex cell: no block, one that is not full, a full one of 256 KiB, and two.
   const TemporaryFolder folder;
-  TetMesh mesh = MakeBoxMesh({1, 1, 1}, {1, 1, 1});
-  for (const std::size_t num_tets : {6, 5, 4}) {
-    mesh.tets.resize(num_tets);
-    WriteVtu(folder / "a.vtu", mesh, {});
-    EXPECT_EQ(ReadArray<std::uint8_t>(ReadText(folder / "a.vtu"), R"(type="UInt8" Name="types")").size(), num_tets);
+  constexpr std::size_t kFull = (1 << 18) / sizeof(double);
+  for (const std::size_t size : {std::size_t{0}, std::size_t{1}, kFull, kFull + 1}) {
+    const std::vector<Eigen::Vector3d> point(1, {1, 2, 3});
+    const std::vector<int> vertices(size, 0);
+    std::vector<double> values(size);
+    for (std::size_t i = 0; i < size; ++i) values[i] = 1 / (1. + static_cast<double>(i));
+    WriteVtu(folder / "a.vtu", point, {{VtuCellType::kVertex, vertices.data(), size}}, {}, {{"x", 1, values.data()}});
+    EXPECT_EQ(ReadArray<double>(ReadText(folder / "a.vtu"), R"(type="Float64" Name="x")"), values);
   }
+}
+
+TEST(WriteVtu, TakesSeveralKindsOfCells) {
+  const TemporaryFolder folder;
+  const std::vector<Eigen::Vector3d> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const std::vector<int> lines = {0, 1, 1, 2}, vertices = {2}, triangles = {0, 1, 2};
+  const std::vector<std::int32_t> numbers = {7, 8, 9, 10};
+  WriteVtu(folder / "a.vtu", points,
+           {{VtuCellType::kLine, lines.data(), 2},
+            {VtuCellType::kVertex, vertices.data(), 1},
+            {VtuCellType::kTriangle, triangles.data(), 1}},
+           {}, {{"number", 1, numbers.data()}});
+  const std::string vtu = ReadText(folder / "a.vtu");
+  EXPECT_NE(vtu.find("<Piece NumberOfPoints=\"3\" NumberOfCells=\"4\">"), std::string::npos);
+  EXPECT_EQ(ReadArray<std::int32_t>(vtu, R"(type="Int32" Name="connectivity")"),
+            (std::vector<std::int32_t>{0, 1, 1, 2, 2, 0, 1, 2}));
+  EXPECT_EQ(ReadArray<std::int64_t>(vtu, R"(type="Int64" Name="offsets")"), (std::vector<std::int64_t>{2, 4, 5, 8}));
+  EXPECT_EQ(ReadArray<std::uint8_t>(vtu, R"(type="UInt8" Name="types")"), (std::vector<std::uint8_t>{3, 3, 1, 5}));
+  EXPECT_EQ(ReadArray<std::int32_t>(vtu, R"(type="Int32" Name="number")"), numbers);
 }
 
 TEST(WriteVtu, LeavesOutRegionsIfThereAreNone) {
@@ -122,6 +164,11 @@ TEST(WriteVtu, RefusesBadArrays) {
   EXPECT_EQ(message({"", 1, &value}), "WriteVtu: point array 0 has no name");
   EXPECT_EQ(message({"a", 0, &value}), "WriteVtu: point array 'a' has 0 components");
   EXPECT_EQ(message({"a", 1, static_cast<const double*>(nullptr)}), "WriteVtu: point array 'a' has no values");
+  const int vertices[] = {0, 1, 8, 2};
+  EXPECT_EQ(MessageOf<std::invalid_argument>([&] {
+              WriteVtu("unused.vtu", mesh.points, {{VtuCellType::kLine, vertices, 2}}, {}, {});
+            }),
+            "WriteVtu: cell 1 has the point 8, out of range 0..7");
 }
 
 TEST(WriteVtu, NamesThePathThatCannotBeWritten) {
