@@ -76,6 +76,10 @@ TEST(FieldCommand, WritesFieldReportAndSummary) {
     for (const char* key : {"read", "setup", "solve", "project", "write"}) {
       EXPECT_GE(report["seconds"].at(key).get<double>(), 0) << key;
     }
+    const json& by_type = report.at("singular_triangles_by_type");
+    const int sum_of_types = by_type.at("quarter").get<int>() + by_type.at("half").get<int>() +
+                             by_type.at("diagonal_half").get<int>() + by_type.at("third").get<int>();
+    EXPECT_EQ(report["singular_triangles"], sum_of_types);
     EXPECT_EQ(report["vertices"], 5291);
     EXPECT_EQ(report["degree"], degree);
     EXPECT_LE(report["iterations"], 40);

@@ -64,7 +64,9 @@ TEST(MeasureField, CountsTrianglesCrossedByASingularCurve) {
     for (const Vector3d& p : mesh.points) {
       frames.push_back(Turn(turn * std::atan2(p.y() - 2.4, p.x() - 2.45), Vector3d::UnitZ()));
     }
-    EXPECT_EQ(MeasureField(mesh, frames).singular_triangles, 4u + 3u * 2u);
+    const FieldQuality quality = MeasureField(mesh, frames);
+    EXPECT_EQ(quality.singular_triangles, 4u + 3u * 2u);
+    EXPECT_EQ(quality.singular_triangles_of_type[static_cast<int>(TurnType::kQuarter)], quality.singular_triangles);
   }
 }
 

@@ -22,6 +22,7 @@
 #include "octupole/field_writer.h"
 #include "octupole/mesh_inspection.h"
 #include "octupole/mesh_io.h"
+#include "octupole/octahedral_group.h"
 #include "octupole/solver_presets.h"
 
 namespace octupole {
@@ -94,6 +95,14 @@ void CheckFolderOf(const std::filesystem::path& file) {
   const std::filesystem::path folder = file.parent_path();
   if (folder.empty() || std::filesystem::is_directory(folder)) return;
   throw std::runtime_error(file.string() + ": there is no folder " + folder.string());
+}
+
+nlohmann::ordered_json CountsByType(const FieldQuality& quality) {
+  const auto& count = quality.singular_triangles_of_type;
+  return {{"quarter", count[static_cast<int>(TurnType::kQuarter)]},
+          {"half", count[static_cast<int>(TurnType::kHalf)]},
+          {"diagonal_half", count[static_cast<int>(TurnType::kDiagonalHalf)]},
+          {"third", count[static_cast<int>(TurnType::kThird)]}};
 }
 
 void PrintSummary(const Arguments& arguments, const nlohmann::ordered_json& report) {
@@ -182,6 +191,7 @@ void RunField(const Arguments& arguments) {
       {"boundary_rms_deg", quality.boundary_rms_deg},
       {"boundary_max_deg", quality.boundary_max_deg},
       {"singular_triangles", quality.singular_triangles},
+      {"singular_triangles_by_type", CountsByType(quality)},
       {"seconds",
        {{"read", read_seconds},
         {"setup", field.setup_seconds},

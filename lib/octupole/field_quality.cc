@@ -8,7 +8,7 @@
 
 #include "octupole/frame.h"
 #include "octupole/mesh_topology.h"
-#include "octupole/octahedral_group.h"
+#include "octupole/singular_triangles.h"
 #include "octupole/surface_corners.h"
 
 namespace octupole {
@@ -51,8 +51,9 @@ FieldQuality MeasureField(const TetMesh& mesh, const std::vector<Eigen::Matrix3d
     quality.energy3 += FrameDifference<3>(frames[a], frames[b]);
     quality.energy4 += FrameDifference<4>(frames[a], frames[b]);
   }
-  for (const auto& [a, b, c] : MeshTriangles(mesh)) {
-    quality.singular_triangles += IsSingularTriangle(frames[a], frames[b], frames[c]);
+  for (const SingularTriangle& triangle : FindSingularTriangles(mesh, frames)) {
+    ++quality.singular_triangles;
+    ++quality.singular_triangles_of_type[static_cast<std::size_t>(triangle.type)];
   }
   MeasureBoundary(mesh, frames, &quality);
   return quality;

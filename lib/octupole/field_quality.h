@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -21,8 +22,9 @@ struct FieldQuality {
   double boundary_rms_deg = 0;
   double boundary_max_deg = 0;
   std::size_t smooth_boundary_vertices = 0;
-  /// Triangles that a singular curve crosses, see IsSingularTriangle.
+  /// Triangles that a singular curve crosses, see FindSingularTriangles: all, and those of each TurnType.
   std::size_t singular_triangles = 0;
+  std::array<std::size_t, 5> singular_triangles_of_type = {};
 };
 
 /// \param frames one rotation per point, its columns the axes.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "octupole/frame.h"
+
 namespace octupole {
 namespace {
 
@@ -21,12 +23,25 @@ std::array<OctahedralRotation, 24> MakeGroup() {
   return group;
 }
 
+// Rotations 40 degrees or more from all those of the cube have at most this sum of fourth powers, 3 - sin(80 deg)^2,
+// reached by turns about axes; here with a margin for rounding.
+constexpr double kWithin40Degrees = 2.0302;
+
 }  // namespace
 
 Eigen::Matrix3d OctahedralRotation::matrix() const {
   Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
   for (int i = 0; i < 3; ++i) m(i, axis[i]) = sign[i];
   return m;
+}
+
+OctahedralRotation OctahedralRotation::Inverse() const {
+  OctahedralRotation inverse;
+  for (int i = 0; i < 3; ++i) {
+    inverse.axis[axis[i]] = i;
+    inverse.sign[axis[i]] = sign[i];
+  }
+  return inverse;
 }
 
 OctahedralRotation OctahedralRotation::operator*(const OctahedralRotation& other) const {
@@ -75,8 +90,32 @@ OctahedralRotation MatchFrames(const Eigen::Matrix3d& a, const Eigen::Matrix3d& 
   return best;
 }
 
-bool IsSingularTriangle(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b, const Eigen::Matrix3d& c) {
-  return MatchFrames(a, b) * MatchFrames(b, c) * MatchFrames(c, a) != OctahedralRotation();
+TurnType TypeOf(const OctahedralRotation& g) {
+  int trace = 0;
+  for (int i = 0; i < 3; ++i) trace += g.axis[i] == i ? g.sign[i] : 0;
+  switch (trace) {
+    case 3:
+      return TurnType::kNone;
+    case 1:
+      return TurnType::kQuarter;
+    case 0:
+      return TurnType::kThird;
+    default:
+      return g.IsEven() ? TurnType::kHalf : TurnType::kDiagonalHalf;
+  }
+}
+
+OctahedralRotation Holonomy(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b, const Eigen::Matrix3d& c) {
+  return MatchFrames(a, b) * MatchFrames(b, c) * MatchFrames(a, c).Inverse();
+}
+
+TurnType HolonomyType(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b, const Eigen::Matrix3d& c) {
+  const Eigen::Matrix3d ab = a.transpose() * b, bc = b.transpose() * c, ac = a.transpose() * c;
+  if (std::min({SumOfFourthPowers(ab), SumOfFourthPowers(bc), SumOfFourthPowers(ac)}) > kWithin40Degrees) {
+    const bool is_odd = (Permanent(ab) < 0) ^ (Permanent(bc) < 0) ^ (Permanent(ac) < 0);
+    return is_odd ? TurnType::kQuarter : TurnType::kNone;
+  }
+  return TypeOf(Holonomy(a, b, c));
 }
 
 }  // namespace octupole
