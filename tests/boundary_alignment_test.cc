@@ -135,6 +135,79 @@ TEST(AlignToBoundary, LeavesTipsFreeAndBluntApexesSmooth) {
   EXPECT_NEAR(std::abs(blunt.alignments[0].frame()(2, 2)), 1, 1e-12);
 }
 
+// A line across the top of a box, at 30 degrees: the frame there has the normal and the line as axes. Without marks the
+// field would follow the box's edges.
+TEST(AlignToBoundary, FollowsMarkedEdgesOnSmoothFaces) {
+  TetMesh mesh = MakeBoxMesh({4, 4, 4}, {1, 1, 1});
+  const int from = GridIndex(1, 2, 4), over = GridIndex(2, 2, 4), to = GridIndex(3, 2, 4);
+  const Vector3d line(std::cos(Radians(30)), std::sin(Radians(30)), 0);
+  mesh.points[from] = mesh.points[over] - 0.2 * line;
+  mesh.points[to] = mesh.points[over] + 0.2 * line;
+  mesh.feature_edges = {{from, over}, {over, to}};
+  Matrix3d axes;
+  axes << line, Vector3d::UnitZ().cross(line), Vector3d::UnitZ();
+  const BoundaryAlignment boundary = AlignToBoundary(mesh);
+  EXPECT_TRUE(boundary.has_marked_features);
+  EXPECT_EQ(boundary.num_feature_edges, 2u);
+  for (const int v : {from, over, to}) {
+    ASSERT_EQ(boundary.alignments[v].kind(), AlignmentKind::kFrame);
+    EXPECT_LT(WorstAngle(boundary.alignments[v].frame(), axes), 1e-7);
+  }
+  // The box's own edges keep their frames, though they are not marked.
+  EXPECT_EQ(boundary.num_frames, 8u + 12u * 3u + 3u);
+  EXPECT_EQ(boundary.num_normals, 6u * 9u - 3u);
+
+  mesh.feature_edges.clear();
+  const BoundaryAlignment by_angle = AlignToBoundary(mesh);
+  EXPECT_FALSE(by_angle.has_marked_features);
+  EXPECT_EQ(by_angle.num_feature_edges, 12u * 4u);
+  EXPECT_EQ(by_angle.alignments[over].kind(), AlignmentKind::kAxis);
+}
+
+// Two curves that cross at 45 degrees leave no direction that would suit both; at 90 degrees they are two axes.
+TEST(AlignToBoundary, TakesCrossingsOfMarkedEdgesAsTheyAre) {
+  TetMesh mesh = MakeBoxMesh({4, 4, 4}, {1, 1, 1});
+  const int middle = GridIndex(2, 2, 4);
+  mesh.feature_edges = {{GridIndex(1, 2, 4), middle}, {middle, GridIndex(3, 2, 4)}, {middle, GridIndex(2, 3, 4)}};
+  EXPECT_EQ(AlignToBoundary(mesh).alignments[middle].kind(), AlignmentKind::kFrame);
+  mesh.feature_edges = {{GridIndex(1, 2, 4), middle}, {middle, GridIndex(3, 3, 4)}};
+  EXPECT_EQ(AlignToBoundary(mesh).alignments[middle].kind(), AlignmentKind::kAxis);
+}
+
+TEST(AlignToBoundary, FollowsMarkedEdgesInside) {
+  TetMesh mesh = MakeBoxMesh({4, 4, 4}, {1, 1, 1});
+  const int a = GridIndex(1, 2, 2), b = GridIndex(2, 2, 2), c = GridIndex(3, 2, 2), d = GridIndex(2, 3, 2);
+  mesh.feature_edges = {{a, b}, {b, c}};
+  BoundaryAlignment boundary = AlignToBoundary(mesh);
+  EXPECT_EQ(boundary.num_tangents, 3u);
+  for (const int v : {a, b, c}) {
+    ASSERT_EQ(boundary.alignments[v].kind(), AlignmentKind::kAxis);
+    EXPECT_NEAR(std::abs(boundary.alignments[v].frame()(0, 2)), 1, 1e-12);
+  }
+  mesh.feature_edges.push_back({b, d});
+  boundary = AlignToBoundary(mesh);
+  ASSERT_EQ(boundary.alignments[b].kind(), AlignmentKind::kFrame);
+  EXPECT_LT(WorstAngle(boundary.alignments[b].frame(), Matrix3d::Identity()), 1e-7);
+}
+
+// Marks take the place of the angle: an edge of 30 degrees between the normals is none by angle.
+TEST(AlignToBoundary, PrefersMarksToTheAngle) {
+  TetMesh mesh = ShearedBox(150);
+  const int edge = GridIndex(0, 0, 2);
+  EXPECT_EQ(AlignToBoundary(mesh).alignments[edge].kind(), AlignmentKind::kAxis);
+  mesh.feature_edges = {{GridIndex(0, 0, 1), edge}, {edge, GridIndex(0, 0, 3)}};
+  const Alignment marked = AlignToBoundary(mesh).alignments[edge];
+  ASSERT_EQ(marked.kind(), AlignmentKind::kFrame);
+  EXPECT_LT(WorstAngle(marked.frame(), Vector3d::UnitZ() * Eigen::RowVector3d::Ones()), 1e-7);
+  // A marked point says that there is a corner, not where its edges go.
+  mesh.feature_edges.clear();
+  mesh.feature_points = {edge};
+  const BoundaryAlignment with_point = AlignToBoundary(mesh);
+  EXPECT_TRUE(with_point.has_marked_features);
+  EXPECT_EQ(with_point.num_feature_edges, 0u);
+  EXPECT_EQ(with_point.alignments[edge].kind(), AlignmentKind::kAxis);
+}
+
 TEST(AlignToBoundary, TurnsWithTheMesh) {
   std::mt19937 generator(1);
   for (const double angle : {30., 60., 90., 130.}) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -90,10 +91,9 @@ std::vector<SurfaceCorner> WithNormal(std::vector<SurfaceCorner> corners) {
   return corners;
 }
 
-// For each vertex the sum of d d^T over the unit directions d of its feature edges.
-std::vector<Eigen::Matrix3d> FeatureDirections(const std::vector<Eigen::Vector3d>& points,
-                                               const std::vector<std::array<int, 3>>& triangles,
-                                               double feature_angle_deg) {
+// The edges between triangles whose normals differ by more than the angle.
+std::vector<std::array<int, 2>> SharpEdges(const std::vector<Eigen::Vector3d>& points,
+                                           const std::vector<std::array<int, 3>>& triangles, double feature_angle_deg) {
   const double min_cosine = std::cos(feature_angle_deg * EIGEN_PI / 180);
   struct Side {
     int a, b;
@@ -111,7 +111,7 @@ std::vector<Eigen::Matrix3d> FeatureDirections(const std::vector<Eigen::Vector3d
   }
   std::sort(sides.begin(), sides.end(),
             [](const Side& s, const Side& t) { return std::pair(s.a, s.b) < std::pair(t.a, t.b); });
-  std::vector<Eigen::Matrix3d> directions(points.size(), Eigen::Matrix3d::Zero());
+  std::vector<std::array<int, 2>> edges;
   for (auto first = sides.begin(); first != sides.end();) {
     const auto last =
         std::find_if(first, sides.end(), [&](const Side& s) { return s.a != first->a || s.b != first->b; });
@@ -122,54 +122,119 @@ std::vector<Eigen::Matrix3d> FeatureDirections(const std::vector<Eigen::Vector3d
         is_feature |= s->normal.dot(t->normal) < min_cosine;
       }
     }
-    if (is_feature) {
-      const Eigen::Vector3d direction = (points[first->b] - points[first->a]).stableNormalized();
-      directions[first->a] += direction * direction.transpose();
-      directions[first->b] += direction * direction.transpose();
-    }
+    if (is_feature) edges.push_back({first->a, first->b});
     first = last;
+  }
+  return edges;
+}
+
+// For every point, the unit directions of the feature edges there.
+std::vector<std::vector<Eigen::Vector3d>> FeatureDirections(const std::vector<Eigen::Vector3d>& points,
+                                                            const std::vector<std::array<int, 2>>& edges) {
+  std::vector<std::vector<Eigen::Vector3d>> directions(points.size());
+  for (const auto& [a, b] : edges) {
+    const Eigen::Vector3d direction = (points[b] - points[a]).stableNormalized();
+    if (direction.isZero(0)) continue;
+    directions[a].push_back(direction);
+    directions[b].push_back(direction);
   }
   return directions;
 }
 
+// The frame with the axis `normal` that is nearest to having the directions as axes, all of them together.
+std::optional<Eigen::Matrix3d> FindFrameAbout(const Eigen::Vector3d& normal,
+                                              const std::vector<Eigen::Vector3d>& directions) {
+  const Eigen::Matrix3d basis = Alignment::Axis(normal).frame();
+  // Turning a direction by a quarter about the normal leaves its fourth power.
+  std::complex<double> sum = 0;
+  for (const Eigen::Vector3d& d : directions) {
+    sum += std::pow(std::complex<double>(basis.col(0).dot(d), basis.col(1).dot(d)), 4);
+  }
+  if (std::abs(sum) < kMostly * static_cast<double>(directions.size())) return std::nullopt;
+  const double angle = std::arg(sum) / 4;
+  return basis * Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+}
+
+// The line on which directions lie up to sign, if there are any and they do.
+std::optional<Eigen::Vector3d> FindLine(const std::vector<Eigen::Vector3d>& directions) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (const Eigen::Vector3d& d : directions) sum += d * d.transpose();
+  return FindLine(sum);
+}
+
+std::vector<SurfaceCorner> WithEqualWeights(const std::vector<Eigen::Vector3d>& directions) {
+  std::vector<SurfaceCorner> corners;
+  for (const Eigen::Vector3d& direction : directions) corners.push_back({direction, 1});
+  return corners;
+}
+
 }  // namespace
 
-BoundaryAlignment AlignToBoundary(const TetMesh& mesh, double feature_angle_deg) {
+BoundaryAlignment AlignToSurface(const std::vector<Eigen::Vector3d>& points,
+                                 const std::vector<std::array<int, 3>>& triangles,
+                                 const std::vector<std::array<int, 2>>& marked_edges,
+                                 const std::vector<int>& marked_points, double feature_angle_deg) {
   if (!(feature_angle_deg > 0 && feature_angle_deg < 180)) {
     std::ostringstream message;
-    message << "AlignToBoundary: the feature angle must lie between 0 and 180 degrees, not " << feature_angle_deg;
+    message << "AlignToSurface: the feature angle must lie between 0 and 180 degrees, not " << feature_angle_deg;
     throw std::invalid_argument(message.str());
   }
-  const auto triangles = BoundaryTriangles(mesh);
-  const auto corners_of = SurfaceCorners(mesh.points, triangles);
-  const auto feature_directions = FeatureDirections(mesh.points, triangles, feature_angle_deg);
-
+  const auto corners_of = SurfaceCorners(points, triangles);
   BoundaryAlignment result;
-  result.alignments.resize(mesh.points.size());
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    if (corners_of[v].empty()) continue;
+  result.has_marked_features = !marked_edges.empty() || !marked_points.empty();
+  const auto feature_edges =
+      result.has_marked_features ? marked_edges : SharpEdges(points, triangles, feature_angle_deg);
+  result.num_feature_edges = feature_edges.size();
+  const auto directions_of = FeatureDirections(points, feature_edges);
+  std::vector<bool> is_marked_point(points.size(), false);
+  for (const int v : marked_points) is_marked_point[v] = true;
+
+  result.alignments.resize(points.size());
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    const std::vector<Eigen::Vector3d>& directions = directions_of[v];
+    const auto prescribe = [&](const Alignment& alignment, std::size_t* count) {
+      result.alignments[v] = alignment;
+      ++*count;
+    };
+    const auto tangent = FindLine(directions);
+    if (corners_of[v].empty()) {
+      if (directions.empty()) continue;
+      if (tangent) {
+        prescribe(Alignment::Axis(*tangent), &result.num_tangents);
+      } else if (const auto frame = FindCommonAlignment(WithEqualWeights(directions)).frame) {
+        prescribe(Alignment::Frame(*frame), &result.num_frames);
+      } else {
+        ++result.num_free;
+      }
+      continue;
+    }
     const std::vector<SurfaceCorner> corners = WithNormal(corners_of[v]);
     const Eigen::Vector3d mean_normal = MeanNormal(corners);
-    const bool is_smooth = NormalsAgree(corners, feature_angle_deg) && !mean_normal.isZero(0);
-    const CommonAlignment common = is_smooth || corners.empty() ? CommonAlignment() : FindCommonAlignment(corners);
-    Alignment& alignment = result.alignments[v];
+    const bool is_smooth = !is_marked_point[v] && NormalsAgree(corners, feature_angle_deg) && !mean_normal.isZero(0);
+    CommonAlignment common;
     if (is_smooth) {
-      alignment = Alignment::Axis(mean_normal);
-      ++result.num_normals;
-    } else if (common.frame) {
-      alignment = Alignment::Frame(*common.frame);
-      ++result.num_frames;
-    } else if (const auto tangent = FindLine(feature_directions[v])) {
-      alignment = Alignment::Axis(*tangent);
-      ++result.num_tangents;
-    } else if (common.axis && feature_directions[v].isZero(0)) {
-      alignment = Alignment::Axis(*common.axis);
-      ++result.num_normals;
+      if (!directions.empty()) common.frame = FindFrameAbout(mean_normal, directions);
+    } else if (!corners.empty()) {
+      common = FindCommonAlignment(corners);
+    }
+    if (common.frame) {
+      prescribe(Alignment::Frame(*common.frame), &result.num_frames);
+    } else if (is_smooth) {
+      prescribe(Alignment::Axis(mean_normal), &result.num_normals);
+    } else if (tangent) {
+      prescribe(Alignment::Axis(*tangent), &result.num_tangents);
+    } else if (common.axis && directions.empty()) {
+      prescribe(Alignment::Axis(*common.axis), &result.num_normals);
     } else {
       ++result.num_free;
     }
   }
   return result;
+}
+
+BoundaryAlignment AlignToBoundary(const TetMesh& mesh, double feature_angle_deg) {
+  return AlignToSurface(mesh.points, BoundaryTriangles(mesh), mesh.feature_edges, mesh.feature_points,
+                        feature_angle_deg);
 }
 
 }  // namespace octupole

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -8,33 +10,51 @@
 
 namespace octupole {
 
-/// How the boundary of a mesh aligns its vertices, and how many vertices came under each case.
+/// How a surface, such as the boundary of a mesh, aligns the vertices, and how many came under each case.
 struct BoundaryAlignment {
-  /// One per point of the mesh; interior and isolated vertices are free.
+  /// One per point; those off the surface are free, but for marked edges.
   std::vector<Alignment> alignments;
-  /// Smooth boundary vertices: one axis along the angle-weighted normal.
+  /// Smooth vertices: one axis along the angle-weighted normal.
   std::size_t num_normals = 0;
   /// Transversal feature edges and corners: the whole frame.
   std::size_t num_frames = 0;
   /// Acute or shallow feature edges, where no frame fits the faces: one axis along the feature's tangent.
   std::size_t num_tangents = 0;
-  /// Tips: boundary vertices where nothing fits.
+  /// Tips: vertices where nothing fits.
   std::size_t num_free = 0;
+  /// Whether features were marked, or found by their angle; and how many feature edges there are.
+  bool has_marked_features = false;
+  std::size_t num_feature_edges = 0;
 };
 
-/// The alignment that the boundary asks of each vertex, by the spectral rule (theory.md, section 4).
+/// The alignment that a surface asks of each of its points, by the spectral rule (theory.md, section 4).
 ///
-/// A vertex whose incident boundary faces all lie within `feature_angle_deg` of each other in normal is smooth. At any
-/// other, the projectors I - U_i U_i^T of the faces' normals are averaged, weighted by the corner angles, and the
+/// A vertex whose incident triangles all lie within `feature_angle_deg` of each other in normal is smooth. At any
+/// other, the projectors I - U_i U_i^T of the triangles' normals are averaged, weighted by the corner angles, and the
 /// lowest eigenvectors of that matrix tell how far one frame can meet all the normals:
 ///  - a frame meets them, split evenly: it is prescribed;
 ///  - the two lowest eigenvectors belong to one common axis: the normals differ too much for smooth, too little for a
-///    frame. With feature edges (dihedral angle between the normals above `feature_angle_deg`) on one line the tangent
-///    is prescribed; without any, this is a coarsely sampled smooth surface, and the mean normal is;
+///    frame. With feature edges on one line the tangent is prescribed; without any, this is a coarsely sampled smooth
+///    surface, and the mean normal is;
 ///  - neither: the tangent if there is one, else nothing.
-/// Normals are unsigned here, and faces of zero area have none.
+/// Normals are unsigned here, and triangles of zero area have none.
 ///
+/// Feature edges are the marked ones, if any edge or point is marked; otherwise those with an angle between the normals
+/// above `feature_angle_deg`. A marked edge aligns the field even where the surface is smooth, and off the surface:
+///  - at a smooth vertex the frame is prescribed by the normal and the marked edges' common direction up to quarter
+///    turns; where they have none, as when two curves cross at 45 degrees, the normal alone is;
+///  - off the surface the axis along the edges is prescribed, or the frame where they meet as axes of one.
+/// A marked point is never smooth; what is prescribed there follows from its normals and edges.
+///
+/// \param triangles of either orientation: normals that are opposite are far from each other, though.
+/// \param marked_edges, marked_points valid indices into `points`; see TetMesh::feature_edges.
 /// \throw std::invalid_argument unless 0 < feature_angle_deg < 180.
+BoundaryAlignment AlignToSurface(const std::vector<Eigen::Vector3d>& points,
+                                 const std::vector<std::array<int, 3>>& triangles,
+                                 const std::vector<std::array<int, 2>>& marked_edges,
+                                 const std::vector<int>& marked_points, double feature_angle_deg = 40);
+
+/// The same for the boundary of a tet mesh and the features that it marks.
 BoundaryAlignment AlignToBoundary(const TetMesh& mesh, double feature_angle_deg = 40);
 
 }  // namespace octupole
