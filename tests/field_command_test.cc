@@ -119,6 +119,19 @@ TEST(FieldCommand, TakesEverySolverAndIsQuietWhenAsked) {
   EXPECT_EQ(ReadField(folder / "field.vtu", Quoted(folder / "tet.mesh"))["regions"], json({7}));
 }
 
+TEST(FieldCommand, WritesFramesForOtherPrograms) {
+  const TemporaryFolder folder;
+  const Outcome outcome = RunField(Bracket() + " --max-iterations 5 --output " + Quoted(folder / "field.vtu") +
+                                   " --fra " + Quoted(folder / "field.fra") + " --quaternions " +
+                                   Quoted(folder / "field.txt"));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr((folder / "field.fra").string()));
+  const std::string fra = ReadText(folder / "field.fra"), quaternions = ReadText(folder / "field.txt");
+  EXPECT_THAT(fra, testing::StartsWith("FRA 1\n20828 3 0\n"));
+  EXPECT_EQ(std::count(fra.begin(), fra.end(), '\n'), 2 + 3 * 20828);
+  EXPECT_EQ(std::count(quaternions.begin(), quaternions.end(), '\n'), 5291);
+}
+
 TEST(FieldCommand, NamesItsOutputAfterTheMesh) {
   const TemporaryFolder folder;
   const Outcome outcome = Shell("cd " + Quoted(folder.path()) + " && " OCTUPOLE_COMMAND " field " + Bracket() +

@@ -3,8 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <cmath>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <stdexcept>
 
 #include "octupole/box_mesh.h"
@@ -55,6 +58,55 @@ TEST(WriteField, WantsOneValueOfEachPerPoint) {
   EXPECT_THROW(WriteField<3>(folder / "field.vtu", mesh, std::vector<Octupole>(8), std::vector<Eigen::Matrix3d>(7),
                              std::vector<Alignment>(8)),
                std::invalid_argument);
+}
+
+TEST(WriteFra, WritesTheAxesOfEachTet) {
+  const TemporaryFolder folder;
+  std::mt19937 generator(2);
+  const std::vector<Eigen::Matrix3d> frames = {Eigen::Matrix3d::Identity(), RandomFrame(&generator)};
+  WriteFra(folder / "a.fra", frames);
+  std::ifstream file(folder / "a.fra");
+  std::string format;
+  int version = 0, tets = 0, vectors = 0, type = -1;
+  file >> format >> version >> tets >> vectors >> type;
+  EXPECT_EQ(format, "FRA");
+  EXPECT_EQ(std::vector<int>({version, tets, vectors, type}), std::vector<int>({1, 2, 3, 0}));
+  for (const Eigen::Matrix3d& frame : frames) {
+    for (int k = 0; k < 3; ++k) {
+      for (int i = 0; i < 3; ++i) {
+        double x = 0;
+        file >> x;
+        EXPECT_EQ(x, frame(i, k));
+      }
+    }
+  }
+  std::string rest;
+  EXPECT_FALSE(file >> rest);
+  EXPECT_THAT(ReadText(folder / "a.fra"), testing::StartsWith("FRA 1\n2 3 0\n1 0 0\n0 1 0\n0 0 1\n"));
+}
+
+TEST(WriteQuaternions, WritesWFirstAndNotNegative) {
+  const TemporaryFolder folder;
+  std::mt19937 generator(3);
+  std::vector<Eigen::Matrix3d> frames = {
+      Eigen::AngleAxisd(EIGEN_PI / 3, Eigen::Vector3d::UnitY()).toRotationMatrix(),
+      Eigen::AngleAxisd(1.5 * EIGEN_PI, Eigen::Vector3d::UnitZ()).toRotationMatrix()};
+  for (int i = 0; i < 50; ++i) frames.push_back(RandomFrame(&generator));
+  const ScopedCommaLocale locale;
+  WriteQuaternions(folder / "q.txt", frames);
+  std::istringstream lines(ReadText(folder / "q.txt"));
+  lines.imbue(std::locale::classic());
+  Eigen::Quaterniond q;
+  for (const Eigen::Matrix3d& frame : frames) {
+    lines >> q.w() >> q.x() >> q.y() >> q.z();
+    ASSERT_TRUE(lines);
+    EXPECT_GE(q.w(), 0);
+    EXPECT_NEAR(q.norm(), 1, 1e-15);
+    EXPECT_LT((q.toRotationMatrix() - frame).norm(), 1e-14);
+  }
+  std::string rest;
+  EXPECT_FALSE(lines >> rest);
+  EXPECT_THROW(WriteQuaternions(folder / "q.txt", {2 * Eigen::Matrix3d::Identity()}), std::invalid_argument);
 }
 
 }  // namespace

@@ -24,6 +24,7 @@
 #include "octupole/mesh_io.h"
 #include "octupole/octahedral_group.h"
 #include "octupole/solver_presets.h"
+#include "octupole/tet_frames.h"
 
 namespace octupole {
 namespace {
@@ -36,10 +37,13 @@ struct Arguments {
   std::filesystem::path mesh;
   std::filesystem::path output;
   std::filesystem::path report;
+  std::filesystem::path fra;
+  std::filesystem::path quaternions;
   int degree = 3;
   /// None is the fast solver.
   std::optional<SolverPreset> solver;
-  double feature_angle = 40;
+  /// If given, it finds the features, whatever the mesh marks.
+  std::optional<double> feature_angle;
   std::uint32_t seed = 0;
   int threads = 1;
   std::optional<int> max_iterations;
@@ -112,6 +116,11 @@ void PrintSummary(const Arguments& arguments, const nlohmann::ordered_json& repo
               report["tets"].get<int>(), report["edges"].get<int>());
   std::printf("boundary   %d normals, %d frames, %d tangents, %d free\n", alignment["normals"].get<int>(),
               alignment["frames"].get<int>(), alignment["tangents"].get<int>(), alignment["free"].get<int>());
+  const auto& features = report["features"];
+  const bool are_marked = features["source"] == "marked";
+  std::printf("features   %d edges%s, %s\n", features["edges"].get<int>(),
+              are_marked ? (" and " + std::to_string(features["points"].get<int>()) + " points").c_str() : "",
+              are_marked ? "marked in the mesh" : "by their angle");
   std::printf("solver     degree %d, %d unknowns, %s: %s after %d iterations\n", arguments.degree,
               report["unknowns"].get<int>(), report["solver"].get<std::string>().c_str(),
               report["termination"].get<std::string>().c_str(), report["iterations"].get<int>());
@@ -123,17 +132,20 @@ void PrintSummary(const Arguments& arguments, const nlohmann::ordered_json& repo
   std::printf("seconds    read %.2f, setup %.2f, solve %.2f, project %.2f, write %.2f\n", seconds["read"].get<double>(),
               seconds["setup"].get<double>(), seconds["solve"].get<double>(), seconds["project"].get<double>(),
               seconds["write"].get<double>());
-  std::printf("written    %s\n", arguments.output.string().c_str());
+  for (const auto* file : {&arguments.output, &arguments.fra, &arguments.quaternions}) {
+    if (!file->empty()) std::printf("written    %s\n", file->string().c_str());
+  }
 }
 
 template <int kDegree>
 void RunField(const Arguments& arguments) {
-  CheckFolderOf(arguments.output);
-  CheckFolderOf(arguments.report);
+  for (const auto* file : {&arguments.output, &arguments.report, &arguments.fra, &arguments.quaternions}) {
+    CheckFolderOf(*file);
+  }
   const InterruptionGuard guard;
   Stopwatch stopwatch;
   std::vector<std::string> warnings;
-  const TetMesh mesh = ReadTetMesh(arguments.mesh, &warnings);
+  TetMesh mesh = ReadTetMesh(arguments.mesh, &warnings);
   for (std::string& warning : MeshWarnings(InspectMesh(mesh))) warnings.push_back(std::move(warning));
   const double read_seconds = stopwatch.Lap();
   if (!arguments.quiet) {
@@ -144,7 +156,11 @@ void RunField(const Arguments& arguments) {
 
   Progress progress(&guard, !arguments.quiet && isatty(fileno(stderr)) != 0);
   FieldOptions<kDegree> options;
-  options.feature_angle_deg = arguments.feature_angle;
+  if (arguments.feature_angle) {
+    options.feature_angle_deg = *arguments.feature_angle;
+    mesh.feature_edges.clear();
+    mesh.feature_points.clear();
+  }
   options.seed = arguments.seed;
   if (arguments.solver) {
     options.solver = MakeSolverOptions(*arguments.solver);
@@ -165,6 +181,8 @@ void RunField(const Arguments& arguments) {
 
   stopwatch.Lap();
   WriteField<kDegree>(arguments.output, mesh, field.coefficients, field.frames, field.alignment.alignments);
+  if (!arguments.fra.empty()) WriteFra(arguments.fra, TetFrames(mesh, field.frames));
+  if (!arguments.quaternions.empty()) WriteQuaternions(arguments.quaternions, field.frames);
   const double write_seconds = stopwatch.Lap();
 
   const nlohmann::ordered_json report = {
@@ -178,6 +196,10 @@ void RunField(const Arguments& arguments) {
         {"frames", field.alignment.num_frames},
         {"tangents", field.alignment.num_tangents},
         {"free", field.alignment.num_free}}},
+      {"features",
+       {{"source", field.alignment.has_marked_features ? "marked" : "angle"},
+        {"edges", field.alignment.num_feature_edges},
+        {"points", mesh.feature_points.size()}}},
       {"warnings", warnings},
       {"degree", kDegree},
       {"seed", arguments.seed},
@@ -220,6 +242,10 @@ void AddFieldCommand(CLI::App* app) {
   command->add_option("-o,--output", arguments->output, "The field, for ParaView; by default MESH_field.vtu, here")
       ->option_text("F.vtu");
   command->add_option("--report", arguments->report, "All figures as JSON")->option_text("F.json");
+  command->add_option("--fra", arguments->fra, "One frame per tet as text, for hexahedral meshers")
+      ->option_text("F.fra");
+  command->add_option("--quaternions", arguments->quaternions, "One frame per vertex as text: w x y z")
+      ->option_text("F.txt");
   command->add_option("--degree", arguments->degree, "Of the harmonics: 3 (octupoles) or 4")
       ->check(CLI::IsMember({3, 4}))
       ->option_text("N [3]");
@@ -232,7 +258,10 @@ void AddFieldCommand(CLI::App* app) {
           "fast, or of Ceres cholesky, cgnr or lbfgs")
       ->check(CLI::IsMember({"fast", "cholesky", "cgnr", "lbfgs"}))
       ->option_text("NAME [fast]");
-  command->add_option("--feature-angle", arguments->feature_angle, "Between normals, above which an edge is sharp")
+  command
+      ->add_option(
+          "--feature-angle", arguments->feature_angle,
+          "Between normals, above which an edge is a feature; if given, features that the mesh marks are ignored")
       ->check(CLI::Range(1., 179.))
       ->option_text("DEG [40]");
   command->add_option("--seed", arguments->seed, "Of the random start")->option_text("N [0]");

@@ -1,13 +1,35 @@
 #include "octupole/field_writer.h"
 
+#include <Eigen/Geometry>
 #include <array>
+#include <charconv>
 #include <cstdint>
+#include <initializer_list>
+#include <ostream>
 #include <stdexcept>
 #include <string>
 
+#include "octupole/atomic_file.h"
+#include "octupole/rotation.h"
 #include "octupole/vtu_writer.h"
 
 namespace octupole {
+namespace {
+
+// The shortest digits that read back as the same numbers.
+void WriteLine(std::ostream& out, std::initializer_list<double> numbers) {
+  constexpr int kMaxLength = 32;
+  char line[4 * kMaxLength];
+  char* end = line;
+  for (const double x : numbers) {
+    if (end != line) *end++ = ' ';
+    end = std::to_chars(end, end + kMaxLength - 2, x).ptr;
+  }
+  *end++ = '\n';
+  out.write(line, end - line);
+}
+
+}  // namespace
 
 template <int kDegree>
 void WriteField(const std::filesystem::path& path, const TetMesh& mesh,
@@ -34,6 +56,28 @@ void WriteField(const std::filesystem::path& path, const TetMesh& mesh,
             {"frame_z", 3, axes[2].data()},
             {kDegree == 3 ? "octupole" : "hexadecapole", kDimension<kDegree>, first_coefficient},
             {"alignment", 1, kinds.data()}});
+}
+
+void WriteFra(const std::filesystem::path& path, const std::vector<Eigen::Matrix3d>& tet_frames) {
+  WriteFileAtomically(path, [&](std::ostream& out) {
+    constexpr int kVectorsPerTet = 3, kType = 0;
+    out << "FRA 1\n" << tet_frames.size() << " " << kVectorsPerTet << " " << kType << "\n";
+    for (const Eigen::Matrix3d& frame : tet_frames) {
+      for (const auto& axis : frame.colwise()) WriteLine(out, {axis.x(), axis.y(), axis.z()});
+    }
+  });
+}
+
+void WriteQuaternions(const std::filesystem::path& path, const std::vector<Eigen::Matrix3d>& frames) {
+  for (const Eigen::Matrix3d& frame : frames) CheckRotation("WriteQuaternions", frame);
+  WriteFileAtomically(path, [&](std::ostream& out) {
+    for (const Eigen::Matrix3d& frame : frames) {
+      Eigen::Quaterniond q(frame);
+      q.normalize();
+      if (q.w() < 0) q.coeffs() = -q.coeffs();
+      WriteLine(out, {q.w(), q.x(), q.y(), q.z()});
+    }
+  });
 }
 
 template void WriteField<3>(const std::filesystem::path&, const TetMesh&, const std::vector<Octupole>&,

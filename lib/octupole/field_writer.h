@@ -23,4 +23,15 @@ void WriteField(const std::filesystem::path& path, const TetMesh& mesh,
                 const std::vector<Harmonic<kDegree>>& coefficients, const std::vector<Eigen::Matrix3d>& frames,
                 const std::vector<Alignment>& alignments);
 
+/// Writes one frame per tetrahedron (see TetFrames) in the text format .fra of hexahedral meshers such as CubeCover:
+/// the line "FRA 1", a line with the number of tetrahedra, 3 (vectors for each) and 0 (the type), then the vectors, one
+/// a line, in the order of the tetrahedra. Numbers are written so that they read back as they are.
+///
+/// \throw std::runtime_error naming path and cause when the file cannot be written; an existing one stays as it was.
+void WriteFra(const std::filesystem::path& path, const std::vector<Eigen::Matrix3d>& tet_frames);
+
+/// Writes frames as unit quaternions in text, one a line: w x y z, with w >= 0. Numbers are written so that they read
+/// back as they are. Errors as above. \throw std::invalid_argument when a frame is not a rotation.
+void WriteQuaternions(const std::filesystem::path& path, const std::vector<Eigen::Matrix3d>& frames);
+
 }  // namespace octupole
