@@ -91,11 +91,11 @@ void Copy(benchmark::State& state) {
 
 void Growth(benchmark::State& state) {
   const FieldGraph graph = GraphOf(MakeBallMesh(static_cast<int>(state.range(0))));
-  FastSolverOptions options;
+  MinimizerOptions options;
   options.num_threads = static_cast<int>(state.range(1));
   for (auto _ : state) {
     const double start = CpuSeconds();
-    const FastField<3> field = SolveFast<3>(graph, {}, options);
+    const FieldSolution<3> field = SolveFast<3>(graph, {}, options);
     const double num_vertices = static_cast<double>(graph.num_vertices());
     Counters{num_vertices, static_cast<double>(field.iterations.size()), 1e6 * (CpuSeconds() - start) / num_vertices,
              field.energy}
@@ -124,7 +124,7 @@ void Solve(benchmark::State& state, const TetMesh& mesh, std::optional<SolverPre
   Field<3> field;
   const double start = CpuSeconds();
   for (auto _ : state) field = SolveField<3>(mesh, options);
-  Report(mesh, CpuSeconds() - start, static_cast<double>(field.summary.iterations.size()), field.energy, field.frames,
+  Report(mesh, CpuSeconds() - start, static_cast<double>(field.iterations.size()), field.energy, field.frames,
          &state);
 }
 

@@ -18,9 +18,9 @@ void Solve(benchmark::State& state, SolverPreset preset) {
   for (auto _ : state) {
     const Field<3> field = SolveField<3>(mesh, options);
     state.counters["vertices"] = static_cast<double>(mesh.points.size());
-    state.counters["iterations"] = field.summary.iterations.back().iteration;
+    state.counters["iterations"] = field.iterations.back().iteration;
     state.counters["energy"] = field.energy;
-    state.counters["converged"] = field.summary.termination_type == ceres::CONVERGENCE;
+    state.counters["converged"] = field.termination == ceres::CONVERGENCE;
   }
 }
 

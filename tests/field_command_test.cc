@@ -68,9 +68,9 @@ TEST(FieldCommand, WritesFieldReportAndSummary) {
     EXPECT_THAT(outcome.out, HasSubstr((folder / "field.vtu").string()));
 
     const json report = ReadReport(folder / "report.json");
-    for (const char* key :
-         {"vertices", "tets", "edges", "degree", "unknowns", "solver", "termination", "iterations", "energy", "energy3",
-          "energy4", "boundary_rms_deg", "boundary_max_deg", "singular_triangles", "alignment", "warnings"}) {
+    for (const char* key : {"vertices", "tets", "edges", "degree", "unknowns", "nonzeros", "method", "solver",
+                            "termination", "iterations", "energy", "energy3", "energy4", "boundary_rms_deg",
+                            "boundary_max_deg", "singular_triangles", "alignment", "warnings"}) {
       EXPECT_TRUE(report.contains(key)) << key;
     }
     for (const char* key : {"read", "setup", "solve", "project", "write"}) {
@@ -132,6 +132,22 @@ TEST(FieldCommand, WritesFramesForOtherPrograms) {
   EXPECT_EQ(std::count(quaternions.begin(), quaternions.end(), '\n'), 5291);
 }
 
+TEST(FieldCommand, TakesEveryMethod) {
+  const TemporaryFolder folder;
+  for (const std::string method : {"penalty", "ray-sokolov", "huang", "mbo"}) {
+    const Outcome outcome = RunField(Bracket() + " --max-iterations 20 --method " + method + " --output " +
+                                     Quoted(folder / "field.vtu") + " --report " + Quoted(folder / "report.json"));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("method     " + method + ", "));
+    const json report = ReadReport(folder / "report.json");
+    EXPECT_EQ(report["method"], method);
+    EXPECT_EQ(report["degree"], method == "penalty" ? 3 : 4);
+    EXPECT_EQ(report.contains("solver"), method == "penalty");
+    EXPECT_GT(report["nonzeros"], report["unknowns"]);
+    EXPECT_GE(report["cpu_seconds"], 0);
+  }
+}
+
 TEST(FieldCommand, NamesItsOutputAfterTheMesh) {
   const TemporaryFolder folder;
   const Outcome outcome = Shell("cd " + Quoted(folder.path()) + " && " OCTUPOLE_COMMAND " field " + Bracket() +
@@ -186,8 +202,9 @@ TEST(FieldCommand, SaysBeforeItSolvesThatItCannotWrite) {
 }
 
 TEST(FieldCommand, RefusesBadUsage) {
-  for (const std::string arguments : {"", "--degree 5", "--solver magic", "--feature-angle 0", "--threads 0",
-                                      "--seed -1", "--max-iterations -1", "--nonsense"}) {
+  for (const std::string arguments :
+       {"", "--degree 5", "--solver magic", "--method magic", "--method huang --solver fast", "--method mbo --degree 3",
+        "--feature-angle 0", "--threads 0", "--seed -1", "--max-iterations -1", "--nonsense"}) {
     const Outcome outcome = RunField(arguments.empty() ? arguments : Bracket() + " " + arguments);
     EXPECT_EQ(outcome.exit_code, 2) << arguments;
     EXPECT_FALSE(outcome.err.empty()) << arguments;

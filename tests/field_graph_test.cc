@@ -45,5 +45,18 @@ TEST(CheckFieldGraph, NamesTheBadEdge) {
   }
 }
 
+// Two free vertices, one with an axis and one with a frame; one edge does not count.
+TEST(SizeOfProblem, AddsUpBlocks) {
+  const FieldGraph graph = {
+      {{0, 1, 1}, {0, 2, 2.5}, {1, 3, 1}, {1, 2, 0}},
+      {Alignment(), Alignment(), Alignment::Axis({1, 2, 3}), Alignment::Frame(Eigen::Matrix3d::Identity())}};
+  EXPECT_EQ(SumOfWeights(graph), 4.5);
+  const ProblemSize size = SizeOfProblem(graph, {7, 2, 0});
+  EXPECT_EQ(size.unknowns, 7u + 7u + 2u);
+  EXPECT_EQ(size.nonzeros, 49u + 49u + 4u + 2u * 49u + 2u * 14u);
+  EXPECT_EQ(SizeOfProblem(graph, {3, 3, 3}).unknowns, 12u);
+  EXPECT_EQ(SizeOfProblem({}, {7, 2, 0}).nonzeros, 0u);
+}
+
 }  // namespace
 }  // namespace octupole

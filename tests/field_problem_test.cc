@@ -71,6 +71,32 @@ TYPED_TEST(FieldProblemTest, SetsUpOneBlockPerVertexWithItsFreedom) {
   EXPECT_TRUE(problem.IsParameterBlockConstant(field[3].data()));
 }
 
+// Ceres' own count, and that of the entries of J^T J when it stores blocks.
+TYPED_TEST(FieldProblemTest, HasTheSizeThatTheGraphSays) {
+  constexpr int l = TypeParam::value;
+  const FieldGraph graph = SmallGraph();
+  std::vector<Harmonic<l>> field = AnyField<l>(4);
+  ceres::Problem problem;
+  BuildFieldProblem<l>(graph, {}, &field, &problem);
+  std::size_t unknowns = 0, nonzeros = 0;
+  for (Harmonic<l>& a : field) {
+    if (problem.IsParameterBlockConstant(a.data())) continue;
+    unknowns += problem.ParameterBlockTangentSize(a.data());
+    for (Harmonic<l>& b : field) {
+      if (problem.IsParameterBlockConstant(b.data())) continue;
+      std::vector<ceres::ResidualBlockId> of_a, of_b;
+      problem.GetResidualBlocksForParameterBlock(a.data(), &of_a);
+      problem.GetResidualBlocksForParameterBlock(b.data(), &of_b);
+      const bool are_coupled = std::find_first_of(of_a.begin(), of_a.end(), of_b.begin(), of_b.end()) != of_a.end();
+      if (!are_coupled) continue;
+      nonzeros += problem.ParameterBlockTangentSize(a.data()) * problem.ParameterBlockTangentSize(b.data());
+    }
+  }
+  const ProblemSize size = SizeOfProblem(graph, kUnknownsOfKind<l>);
+  EXPECT_EQ(size.unknowns, unknowns);
+  EXPECT_EQ(size.nonzeros, nonzeros);
+}
+
 TYPED_TEST(FieldProblemTest, MovesStartingValuesToTheirAlignment) {
   constexpr int l = TypeParam::value;
   const FieldGraph graph = SmallGraph();

@@ -56,7 +56,7 @@ TEST_P(BoxTest, HasTheConstantFieldFrom20Seeds) {
       static_cast<double>(MakeFieldGraph(Box(), std::vector<Alignment>(Box().points.size())).edges.size());
   for (std::uint32_t seed = 0; seed < 20; ++seed) {
     const Field<3> field = SolveField<3>(Box(), OptionsOf<3>(GetParam(), seed));
-    EXPECT_EQ(field.summary.termination_type, ceres::CONVERGENCE) << field.summary.message;
+    EXPECT_EQ(field.termination, ceres::CONVERGENCE) << field.ceres_summary->message;
     EXPECT_LT(field.energy, 1e-8 * num_edges) << "seed " << seed;
     EXPECT_LT(AngleToCoordinateAxes(field.frames), 1e-4) << "seed " << seed;
   }
@@ -83,7 +83,7 @@ TEST(SolveField, StartsWhereTheCallerSays) {
   FieldOptions<3> options = OptionsOf<3>(SolverPreset::kLbfgs, 0);
   options.start.assign(Box().points.size(), ReferenceHarmonic<3>());
   const Field<3> field = SolveField<3>(Box(), options);
-  EXPECT_LE(field.summary.iterations.size(), 1u) << "the start is the solution";
+  EXPECT_LE(field.iterations.size(), 1u) << "the start is the solution";
   EXPECT_NEAR(field.energy, 0, 1e-20);
   options.start.pop_back();
   EXPECT_THROW(SolveField<3>(Box(), options), std::invalid_argument);
@@ -98,8 +98,9 @@ TEST(SolveField, ReturnsWhatWasReachedWhenStopped) {
   FieldOptions<3> options = OptionsOf<3>(SolverPreset::kLbfgs, 0);
   options.solver->callbacks.push_back(&stop);
   const Field<3> field = SolveField<3>(Box(), options);
-  EXPECT_EQ(field.summary.termination_type, ceres::USER_SUCCESS);
-  EXPECT_LT(field.energy, 2 * field.summary.initial_cost);
+  EXPECT_EQ(field.termination, ceres::USER_SUCCESS);
+  EXPECT_EQ(field.iterations.size(), field.ceres_summary->iterations.size());
+  EXPECT_LT(field.energy, 2 * field.ceres_summary->initial_cost);
   EXPECT_EQ(field.frames.size(), Box().points.size());
 }
 
@@ -112,6 +113,56 @@ TEST(SolveField, AlignsWithACurvedBoundary) {
   EXPECT_GT(quality.smooth_boundary_vertices, 300u);
   EXPECT_LT(quality.boundary_max_deg, 1e-4);
   EXPECT_GT(quality.singular_triangles, 8u);
+}
+
+class MethodTest : public testing::TestWithParam<FieldMethod> {};
+INSTANTIATE_TEST_SUITE_P(EveryMethod, MethodTest,
+                         testing::Values(FieldMethod::kPenalty, FieldMethod::kRaySokolov, FieldMethod::kHuang,
+                                         FieldMethod::kMbo));
+
+// In both degrees.
+TEST_P(MethodTest, FillsTheWholeField) {
+  const auto run = [](auto options) {
+    options.method = GetParam();
+    const auto field = SolveField(Box(), options);
+    EXPECT_EQ(field.termination, ceres::CONVERGENCE);
+    EXPECT_LT(AngleToCoordinateAxes(field.frames), 1e-2);
+    EXPECT_FALSE(field.ceres_summary);
+    EXPECT_GT(field.size.unknowns, 3 * 4 * 5 * 3u);
+    EXPECT_GT(field.size.nonzeros, field.size.unknowns);
+    EXPECT_EQ(field.coefficients.size(), Box().points.size());
+    return field;
+  };
+  const Field<3> octupoles = run(FieldOptions<3>());
+  const Field<4> hexadecapoles = run(FieldOptions<4>());
+  for (std::size_t v = 0; v < Box().points.size(); ++v) {
+    EXPECT_NEAR(std::abs(octupoles.coefficients[v].dot(HarmonicFromFrame<3>(octupoles.frames[v]))), 1, 1e-3);
+    EXPECT_NEAR(hexadecapoles.coefficients[v].dot(HarmonicFromFrame<4>(hexadecapoles.frames[v])), 1, 1e-3);
+  }
+}
+
+TEST_P(MethodTest, TakesItsOptions) {
+  FieldOptions<3> options;
+  options.method = GetParam();
+  options.minimizer.max_iterations = 1;
+  EXPECT_EQ(SolveField<3>(MakeBallMesh(4), options).iterations.size(), 1u);
+}
+
+TEST_P(MethodTest, TakesAStartAndASolverOnlyIfItIsThePenalty) {
+  for (const bool is_start : {true, false}) {
+    FieldOptions<3> options;
+    options.method = GetParam();
+    if (is_start) {
+      options.start.assign(Box().points.size(), ReferenceHarmonic<3>());
+    } else {
+      options.solver = MakeSolverOptions(SolverPreset::kLbfgs);
+    }
+    if (GetParam() == FieldMethod::kPenalty) {
+      EXPECT_NO_THROW(SolveField<3>(Box(), options));
+    } else {
+      EXPECT_THROW(SolveField<3>(Box(), options), std::invalid_argument);
+    }
+  }
 }
 
 TEST(SolveField, RefusesABadMesh) {

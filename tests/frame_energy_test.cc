@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "octupole/aligned_frame.h"
+#include "octupole/alignment.h"
 #include "octupole/box_mesh.h"
 #include "octupole/field_problem.h"
 #include "octupole/frame.h"
@@ -62,10 +64,37 @@ TEST(FrameEnergy, IsHalfTheSumOfFrameDifferences) {
   }
 }
 
-TEST(FrameEnergy, HasTheNumericGradient) {
+// Soft alignment, written out: three parameters everywhere, and the squared distances from what is allowed.
+TEST(FrameEnergy, AddsTheDistancesOfSoftAlignments) {
+  const FieldGraph graph = AnyGraph(true);
+  Workers workers(2);
+  const FrameEnergy energy(graph, AnyFrames(graph), &workers, /*soft_weight=*/7.);
+  ASSERT_EQ(energy.NumParameters(), 3 * static_cast<int>(graph.num_vertices()));
+  const std::vector<double> x = AnyParameters(energy.NumParameters());
+  double cost = 0;
+  ASSERT_TRUE(energy.Evaluate(x.data(), &cost, nullptr));
+  const std::vector<Eigen::Matrix3d> frames = energy.FramesOf(x);
+  double sum = 0;
+  for (const WeightedEdge& edge : graph.edges) sum += edge.weight * FrameDifference<4>(frames[edge.a], frames[edge.b]);
+  for (std::size_t v = 0; v < graph.num_vertices(); ++v) {
+    const Alignment& alignment = graph.alignments[v];
+    const Hexadecapole h = HarmonicFromFrame<4>(frames[v]);
+    if (alignment.kind() == AlignmentKind::kAxis) {
+      sum += 7 * (h - AlignedSubspace<4>(alignment).Project(h)).squaredNorm();
+    } else if (alignment.kind() == AlignmentKind::kFrame) {
+      sum += 7 * FrameDifference<4>(frames[v], alignment.frame());
+    }
+  }
+  EXPECT_NEAR(2 * cost, sum, 1e-12 * sum);
+}
+
+class FrameEnergyGradient : public testing::TestWithParam<std::optional<double>> {};
+INSTANTIATE_TEST_SUITE_P(HardAndSoft, FrameEnergyGradient, testing::Values(std::nullopt, 7.));
+
+TEST_P(FrameEnergyGradient, IsTheNumericOne) {
   const FieldGraph graph = AnyGraph(true);
   Workers workers(1);
-  const FrameEnergy energy(graph, AnyFrames(graph), &workers);
+  const FrameEnergy energy(graph, AnyFrames(graph), &workers, GetParam());
   std::vector<double> x = AnyParameters(energy.NumParameters());
   double cost = 0;
   std::vector<double> gradient(x.size());
@@ -108,6 +137,7 @@ TEST(FrameEnergy, RefusesBadInput) {
   EXPECT_THROW(FrameEnergy({{{0, 2, 1}}, std::vector<Alignment>(2)}, {}, &workers), std::invalid_argument);
   const FieldGraph graph = AnyGraph(false);
   EXPECT_THROW(FrameEnergy(graph, {}, &workers), std::invalid_argument);
+  EXPECT_THROW(FrameEnergy(graph, AnyFrames(graph), &workers, -1), std::invalid_argument);
   EXPECT_THROW(FrameEnergy(graph, AnyFrames(graph), &workers).FramesOf({}), std::invalid_argument);
 }
 

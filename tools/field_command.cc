@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -33,15 +34,22 @@ const std::map<std::string, SolverPreset> kSolverOfName = {{"cholesky", SolverPr
                                                            {"cgnr", SolverPreset::kConjugateGradients},
                                                            {"lbfgs", SolverPreset::kLbfgs}};
 
+const std::map<std::string, FieldMethod> kMethodOfName = {{"penalty", FieldMethod::kPenalty},
+                                                          {"ray-sokolov", FieldMethod::kRaySokolov},
+                                                          {"huang", FieldMethod::kHuang},
+                                                          {"mbo", FieldMethod::kMbo}};
+
 struct Arguments {
   std::filesystem::path mesh;
   std::filesystem::path output;
   std::filesystem::path report;
   std::filesystem::path fra;
   std::filesystem::path quaternions;
-  int degree = 3;
-  /// None is the fast solver.
-  std::optional<SolverPreset> solver;
+  FieldMethod method = FieldMethod::kPenalty;
+  /// By default 3, and 4 for the methods that know no other.
+  std::optional<int> degree;
+  /// As on the command line, "fast" or one of kSolverOfName.
+  std::optional<std::string> solver;
   /// If given, it finds the features, whatever the mesh marks.
   std::optional<double> feature_angle;
   std::uint32_t seed = 0;
@@ -50,11 +58,11 @@ struct Arguments {
   bool quiet = false;
 };
 
-std::string NameOf(const std::optional<SolverPreset>& preset) {
-  for (const auto& [name, value] : kSolverOfName) {
-    if (value == preset) return name;
+std::string NameOf(FieldMethod method) {
+  for (const auto& [name, value] : kMethodOfName) {
+    if (value == method) return name;
   }
-  return "fast";
+  return "";
 }
 
 class Stopwatch {
@@ -121,8 +129,10 @@ void PrintSummary(const Arguments& arguments, const nlohmann::ordered_json& repo
   std::printf("features   %d edges%s, %s\n", features["edges"].get<int>(),
               are_marked ? (" and " + std::to_string(features["points"].get<int>()) + " points").c_str() : "",
               are_marked ? "marked in the mesh" : "by their angle");
-  std::printf("solver     degree %d, %d unknowns, %s: %s after %d iterations\n", arguments.degree,
-              report["unknowns"].get<int>(), report["solver"].get<std::string>().c_str(),
+  std::string method = report["method"];
+  if (report.contains("solver")) method += ", " + report["solver"].get<std::string>();
+  std::printf("method     %s, degree %d, %d unknowns: %s after %d iterations\n", method.c_str(),
+              report["degree"].get<int>(), report["unknowns"].get<int>(),
               report["termination"].get<std::string>().c_str(), report["iterations"].get<int>());
   std::printf("energy     %.6g; of the frames: degree 3 %.6g, degree 4 %.6g\n", number("energy"), number("energy3"),
               number("energy4"));
@@ -162,20 +172,24 @@ void RunField(const Arguments& arguments) {
     mesh.feature_points.clear();
   }
   options.seed = arguments.seed;
-  if (arguments.solver) {
-    options.solver = MakeSolverOptions(*arguments.solver);
+  options.method = arguments.method;
+  options.minimizer.num_threads = arguments.threads;
+  if (arguments.max_iterations) options.minimizer.max_iterations = *arguments.max_iterations;
+  options.minimizer.callback = &progress;
+  const std::string solver = arguments.solver.value_or("fast");
+  if (solver != "fast") {
+    options.solver = MakeSolverOptions(kSolverOfName.at(solver));
     options.solver->num_threads = arguments.threads;
     if (arguments.max_iterations) options.solver->max_num_iterations = *arguments.max_iterations;
     options.solver->callbacks.push_back(&progress);
-  } else {
-    options.fast.num_threads = arguments.threads;
-    if (arguments.max_iterations) options.fast.max_iterations = *arguments.max_iterations;
-    options.fast.callback = &progress;
   }
+  const std::clock_t cpu_start = std::clock();
   const Field<kDegree> field = SolveField<kDegree>(mesh, options);
+  const double cpu_seconds = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
   progress.Finish();
-  if (!field.summary.IsSolutionUsable()) {
-    throw std::runtime_error(arguments.mesh.string() + ": the solver failed: " + field.summary.message);
+  if (!field.IsUsable()) {
+    throw std::runtime_error(arguments.mesh.string() + ": the solver failed: " +
+                             (field.ceres_summary ? field.ceres_summary->message : "the energy is not finite"));
   }
   const FieldQuality quality = MeasureField(mesh, field.frames);
 
@@ -185,7 +199,7 @@ void RunField(const Arguments& arguments) {
   if (!arguments.quaternions.empty()) WriteQuaternions(arguments.quaternions, field.frames);
   const double write_seconds = stopwatch.Lap();
 
-  const nlohmann::ordered_json report = {
+  nlohmann::ordered_json report = {
       {"mesh", arguments.mesh.string()},
       {"output", arguments.output.string()},
       {"vertices", mesh.points.size()},
@@ -201,12 +215,13 @@ void RunField(const Arguments& arguments) {
         {"edges", field.alignment.num_feature_edges},
         {"points", mesh.feature_points.size()}}},
       {"warnings", warnings},
+      {"method", NameOf(arguments.method)},
       {"degree", kDegree},
       {"seed", arguments.seed},
-      {"unknowns", field.summary.num_effective_parameters_reduced},
-      {"solver", NameOf(arguments.solver)},
-      {"termination", ceres::TerminationTypeToString(field.summary.termination_type)},
-      {"iterations", field.summary.iterations.empty() ? 0 : field.summary.iterations.back().iteration},
+      {"unknowns", field.size.unknowns},
+      {"nonzeros", field.size.nonzeros},
+      {"termination", ceres::TerminationTypeToString(field.termination)},
+      {"iterations", field.iterations.empty() ? 0 : field.iterations.back().iteration},
       {"energy", field.energy},
       {"energy3", quality.energy3},
       {"energy4", quality.energy4},
@@ -217,10 +232,13 @@ void RunField(const Arguments& arguments) {
       {"seconds",
        {{"read", read_seconds},
         {"setup", field.setup_seconds},
-        {"solve", field.summary.total_time_in_seconds},
+        {"solve", field.solve_seconds},
         {"project", field.project_seconds},
         {"write", write_seconds}}},
+      // Of all threads, for setup, solve and project together.
+      {"cpu_seconds", cpu_seconds},
   };
+  if (arguments.method == FieldMethod::kPenalty) report["solver"] = solver;
   if (!arguments.report.empty()) {
     WriteFileAtomically(arguments.report, [&](std::ostream& stream) { stream << report.dump(2) << "\n"; });
   }
@@ -242,20 +260,16 @@ void AddFieldCommand(CLI::App* app) {
   command->add_option("-o,--output", arguments->output, "The field, for ParaView; by default MESH_field.vtu, here")
       ->option_text("F.vtu");
   command->add_option("--report", arguments->report, "All figures as JSON")->option_text("F.json");
-  command->add_option("--fra", arguments->fra, "One frame per tet as text, for hexahedral meshers")
-      ->option_text("F.fra");
-  command->add_option("--quaternions", arguments->quaternions, "One frame per vertex as text: w x y z")
-      ->option_text("F.txt");
-  command->add_option("--degree", arguments->degree, "Of the harmonics: 3 (octupoles) or 4")
-      ->check(CLI::IsMember({3, 4}))
-      ->option_text("N [3]");
   command
       ->add_option_function<std::string>(
-          "--solver",
-          [arguments](const std::string& name) {
-            if (name != "fast") arguments->solver = kSolverOfName.at(name);
-          },
-          "fast, or of Ceres cholesky, cgnr or lbfgs")
+          "--method", [arguments](const std::string& name) { arguments->method = kMethodOfName.at(name); },
+          "penalty, or of the classics in degree 4 ray-sokolov, huang or mbo")
+      ->check(CLI::IsMember({"penalty", "ray-sokolov", "huang", "mbo"}))
+      ->option_text("NAME [penalty]");
+  command->add_option("--degree", arguments->degree, "Of the harmonics of penalty: 3 (octupoles) or 4")
+      ->check(CLI::IsMember({3, 4}))
+      ->option_text("N [3]");
+  command->add_option("--solver", arguments->solver, "Of penalty: fast, or of Ceres cholesky, cgnr or lbfgs")
       ->check(CLI::IsMember({"fast", "cholesky", "cgnr", "lbfgs"}))
       ->option_text("NAME [fast]");
   command
@@ -274,7 +288,14 @@ void AddFieldCommand(CLI::App* app) {
   command->add_flag("--quiet", arguments->quiet, "Print errors only");
   command->callback([arguments] {
     if (arguments->output.empty()) arguments->output = arguments->mesh.stem().string() + "_field.vtu";
-    arguments->degree == 3 ? RunField<3>(*arguments) : RunField<4>(*arguments);
+    const bool is_classic = arguments->method != FieldMethod::kPenalty;
+    if (is_classic && arguments->solver) {
+      throw CLI::ValidationError("--solver", "only for --method penalty, not for " + NameOf(arguments->method));
+    }
+    if (is_classic && arguments->degree == 3) {
+      throw CLI::ValidationError("--degree", NameOf(arguments->method) + " knows degree 4 only");
+    }
+    arguments->degree.value_or(is_classic ? 4 : 3) == 3 ? RunField<3>(*arguments) : RunField<4>(*arguments);
   });
 }
 

@@ -34,4 +34,26 @@ void CheckFieldGraph(const FieldGraph& graph) {
   }
 }
 
+double SumOfWeights(const FieldGraph& graph) {
+  double sum = 0;
+  for (const WeightedEdge& edge : graph.edges) sum += edge.weight;
+  return sum;
+}
+
+ProblemSize SizeOfProblem(const FieldGraph& graph, const std::array<std::size_t, 3>& unknowns_of_kind) {
+  const auto unknowns_of = [&](int v) {
+    return unknowns_of_kind[static_cast<std::size_t>(graph.alignments[v].kind())];
+  };
+  ProblemSize size;
+  for (std::size_t v = 0; v < graph.num_vertices(); ++v) {
+    const std::size_t unknowns = unknowns_of(static_cast<int>(v));
+    size.unknowns += unknowns;
+    size.nonzeros += unknowns * unknowns;
+  }
+  for (const WeightedEdge& edge : graph.edges) {
+    if (edge.weight > 0) size.nonzeros += 2 * unknowns_of(edge.a) * unknowns_of(edge.b);
+  }
+  return size;
+}
+
 }  // namespace octupole

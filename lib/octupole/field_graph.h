@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -31,5 +32,21 @@ FieldGraph MakeFieldGraph(const TetMesh& mesh, std::vector<Alignment> alignments
 /// \throw std::invalid_argument naming the first edge whose ends are out of range or equal, or whose weight is negative
 /// or not finite.
 void CheckFieldGraph(const FieldGraph& graph);
+
+/// The sum of the edges' weights.
+double SumOfWeights(const FieldGraph& graph);
+
+/// How large the problem is that a field poses on a graph.
+struct ProblemSize {
+  std::size_t unknowns = 0;
+  /// Non-zeros of the matrix of second derivatives (or of its Gauss-Newton part), both triangles, by blocks: with k_v
+  /// unknowns at vertex v the sum over vertices of k_v^2 and over edges of positive weight of 2 k_a k_b. It is what a
+  /// solver stores that knows blocks but not what is in them, as Ceres does; in degree 4 the blocks of edges between
+  /// free vertices are diagonal.
+  std::size_t nonzeros = 0;
+};
+
+/// \param unknowns_of_kind the unknowns at a vertex by its AlignmentKind: free, with an axis, with a frame.
+ProblemSize SizeOfProblem(const FieldGraph& graph, const std::array<std::size_t, 3>& unknowns_of_kind);
 
 }  // namespace octupole

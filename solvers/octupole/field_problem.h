@@ -2,6 +2,8 @@
 
 #include <ceres/problem.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -17,6 +19,10 @@ struct EnergyWeights {
   /// In degree 3 scale / 20 makes the penalty equally stiff in all directions off the manifold (theory.md, section 2).
   double deviation = 0.25;
 };
+
+/// The unknowns of a field energy at a vertex by its AlignmentKind, for SizeOfProblem.
+template <int kDegree>
+inline constexpr std::array<std::size_t, 3> kUnknownsOfKind = {kDimension<kDegree>, 2, 0};
 
 /// A starting field: at each vertex the harmonic of a uniformly random frame that keeps to the vertex's alignment.
 template <int kDegree>

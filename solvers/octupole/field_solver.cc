@@ -1,9 +1,15 @@
 #include "octupole/field_solver.h"
 
 #include <chrono>
+#include <stdexcept>
 #include <utility>
 
+#include "octupole/fast_solver.h"
 #include "octupole/frame.h"
+#include "octupole/huang.h"
+#include "octupole/mbo.h"
+#include "octupole/minimizer.h"
+#include "octupole/ray_sokolov.h"
 
 namespace octupole {
 namespace {
@@ -20,8 +26,13 @@ void SolveWithCeres(const FieldGraph& graph, const FieldOptions<kDegree>& option
   BuildFieldProblem<kDegree>(graph, options.weights, &field->coefficients, &problem);
   field->setup_seconds += SecondsSince(start);
 
-  ceres::Solve(*options.solver, &problem, &field->summary);
-  field->energy = 2 * field->summary.final_cost;
+  ceres::Solver::Summary& summary = field->ceres_summary.emplace();
+  ceres::Solve(*options.solver, &problem, &summary);
+  field->solve_seconds = summary.total_time_in_seconds;
+  field->termination = summary.termination_type;
+  field->iterations = summary.iterations;
+  field->energy = 2 * summary.final_cost;
+  field->size = SizeOfProblem(graph, kUnknownsOfKind<kDegree>);
 
   const auto solved = std::chrono::steady_clock::now();
   field->frames.reserve(field->coefficients.size());
@@ -29,49 +40,53 @@ void SolveWithCeres(const FieldGraph& graph, const FieldOptions<kDegree>& option
   field->project_seconds = SecondsSince(solved);
 }
 
-const char* MessageOf(ceres::TerminationType termination) {
-  switch (termination) {
-    case ceres::CONVERGENCE:
-      return "the energy hardly falls any more";
-    case ceres::NO_CONVERGENCE:
-      return "the maximum number of iterations is reached";
-    case ceres::FAILURE:
-      return "the energy is not finite";
+template <int kDegree>
+FieldSolution<kDegree> SolveClassic(const FieldGraph& graph, FieldMethod method, const MinimizerOptions& options) {
+  FieldSolution<kDegree> result;
+  FrameSolution& solution = result;
+  switch (method) {
+    case FieldMethod::kRaySokolov:
+      solution = SolveRaySokolov(graph, options);
+      break;
+    case FieldMethod::kHuang:
+      solution = SolveHuang(graph, options);
+      break;
     default:
-      return "stopped by the callback";
+      solution = SolveMbo(graph, options);
   }
+  result.coefficients = internal::HarmonicsOf<kDegree>(result.frames);
+  return result;
 }
 
 template <int kDegree>
-void SolveWithoutCeres(const FieldGraph& graph, const FieldOptions<kDegree>& options, Field<kDegree>* field) {
-  const auto start = std::chrono::steady_clock::now();
-  FastSolverOptions fast = options.fast;
-  fast.seed = options.seed;
-  FastField<kDegree> result = options.start.empty()
-                                  ? SolveFast<kDegree>(graph, options.weights, fast)
-                                  : SolveFastFrom<kDegree>(graph, options.weights, options.start, fast);
-  field->coefficients = std::move(result.coefficients);
-  field->frames = std::move(result.frames);
-  field->energy = result.energy;
-  field->summary.termination_type = result.termination;
-  field->summary.message = MessageOf(result.termination);
-  field->summary.iterations = std::move(result.iterations);
-  field->summary.final_cost = result.energy / 2;
-  field->summary.num_effective_parameters_reduced = result.num_unknowns;
-  field->summary.total_time_in_seconds = SecondsSince(start);
+FieldSolution<kDegree> SolveWithoutCeres(const FieldGraph& graph, const FieldOptions<kDegree>& options) {
+  MinimizerOptions minimizer = options.minimizer;
+  minimizer.seed = options.seed;
+  if (options.method != FieldMethod::kPenalty) return SolveClassic<kDegree>(graph, options.method, minimizer);
+  if (!options.start.empty()) return SolveFastFrom<kDegree>(graph, options.weights, options.start, minimizer);
+  return SolveFast<kDegree>(graph, options.weights, minimizer);
 }
 
 }  // namespace
 
 template <int kDegree>
 Field<kDegree> SolveField(const TetMesh& mesh, const FieldOptions<kDegree>& options) {
+  if (options.method != FieldMethod::kPenalty && (options.solver || !options.start.empty())) {
+    throw std::invalid_argument("SolveField: only the penalty method takes a start or a solver");
+  }
   const auto start = std::chrono::steady_clock::now();
   CheckTetMesh(mesh);
   Field<kDegree> field;
   field.alignment = AlignToBoundary(mesh, options.feature_angle_deg);
   const FieldGraph graph = MakeFieldGraph(mesh, field.alignment.alignments);
   field.setup_seconds = SecondsSince(start);
-  options.solver ? SolveWithCeres(graph, options, &field) : SolveWithoutCeres(graph, options, &field);
+  if (options.solver) {
+    SolveWithCeres(graph, options, &field);
+    return field;
+  }
+  const auto ready = std::chrono::steady_clock::now();
+  static_cast<FieldSolution<kDegree>&>(field) = SolveWithoutCeres(graph, options);
+  field.solve_seconds = SecondsSince(ready);
   return field;
 }
 

@@ -2,57 +2,71 @@
 
 #include <ceres/solver.h>
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "octupole/boundary_alignment.h"
-#include "octupole/fast_solver.h"
 #include "octupole/field_problem.h"
+#include "octupole/field_solution.h"
 #include "octupole/harmonics.h"
 #include "octupole/tet_mesh.h"
 
 namespace octupole {
 
+/// How a field is found. All but the first are the classics of degree 4, to compare with; their headers cite them.
+enum class FieldMethod {
+  /// The penalised energy of BuildFieldProblem: in degree 3 that of the octupoles, in degree 4 with the implicit
+  /// equations of Yu. Nesterenko, *On spherical harmonics possessing octahedral symmetry*, arXiv 2012.12614 (2020). By
+  /// SolveFast or
+  /// by Ceres.
+  kPenalty,
+  /// ray_sokolov.h
+  kRaySokolov,
+  /// huang.h
+  kHuang,
+  /// mbo.h
+  kMbo,
+};
+
 template <int kDegree>
 struct FieldOptions {
-  EnergyWeights weights;
+  FieldMethod method = FieldMethod::kPenalty;
   /// See AlignToBoundary.
   double feature_angle_deg = 40;
   /// Seed of the random starts, which are used when `start` is empty.
   std::uint32_t seed = 0;
+  /// How our own methods minimise; the seed is that above.
+  MinimizerOptions minimizer;
+
+  // The penalty method only.
+  EnergyWeights weights;
   /// Starting values, one per point.
   std::vector<Harmonic<kDegree>> start;
-  /// How SolveFast minimises; its seed is that above.
-  FastSolverOptions fast;
-  /// If given, Ceres minimises instead, on residual blocks; see MakeSolverOptions. Its iteration callbacks go in here.
+  /// If given, Ceres minimises instead of SolveFast, on residual blocks; see MakeSolverOptions. Its iteration callbacks
+  /// go in here.
   std::optional<ceres::Solver::Options> solver;
 };
 
+/// The solution with one harmonic and one frame per point. The penalty method minimises over harmonics: frames are the
+/// nearest to them, from SolveFast also polished. The classics minimise over frames: harmonics are those of the frames.
 template <int kDegree>
-struct Field {
-  /// As Ceres left it; `summary.IsSolutionUsable()` tells whether the field is one. From SolveFast: the termination and
-  /// its message, iterations with their costs, the final cost, the number of unknowns and the time.
-  ceres::Solver::Summary summary;
-  /// One harmonic per point.
-  std::vector<Harmonic<kDegree>> coefficients;
-  /// One frame per point, the nearest to its harmonic, from SolveFast also polished; the columns are the axes.
-  std::vector<Eigen::Matrix3d> frames;
+struct Field : FieldSolution<kDegree> {
   BoundaryAlignment alignment;
-  /// The energy of `coefficients` (cost_weight.h): twice the final cost. For energies of the frames see MeasureField.
-  double energy = 0;
-  /// Wall-clock seconds before the solver was called and after it returned; in between, see `summary`. SolveFast makes
-  /// the frames itself.
+  /// Wall-clock seconds before the minimisation, of it and after it. Our own methods make the frames as they minimise.
   double setup_seconds = 0;
+  double solve_seconds = 0;
   double project_seconds = 0;
+  /// As Ceres left it, if Ceres was asked.
+  std::optional<ceres::Solver::Summary> ceres_summary;
 };
 
-/// A boundary-aligned frame field on a tet mesh: AlignToBoundary, MakeFieldGraph and SolveFast in a row, or with Ceres
+/// A boundary-aligned frame field on a tet mesh: AlignToBoundary, MakeFieldGraph and the method in a row, with Ceres
 /// RandomField, BuildFieldProblem, ceres::Solve and NearestFrame. Compose them yourself for anything else.
 /// The same seed gives the same field on the same machine, with Ceres on one thread.
 ///
-/// \throw std::invalid_argument when the mesh cannot carry a field (see CheckTetMesh) or an option is out of range.
+/// \throw std::invalid_argument when the mesh cannot carry a field (see CheckTetMesh), an option is out of range, or a
+/// start or solver is given to a method that takes none.
 template <int kDegree>
 Field<kDegree> SolveField(const TetMesh& mesh, const FieldOptions<kDegree>& options = {});
 

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "octupole/alignment.h"
+#include "octupole/cost_weight.h"
 #include "octupole/edge_sweep.h"
 #include "octupole/harmonics.h"
 #include "octupole/simd.h"
@@ -53,7 +55,8 @@ OCTUPOLE_WIDE double SweepWide(const NeighbourLists& lists, const HarmonicRow<4>
 
 }  // namespace
 
-FrameEnergy::FrameEnergy(const FieldGraph& graph, const std::vector<Eigen::Matrix3d>& frames, Workers* workers)
+FrameEnergy::FrameEnergy(const FieldGraph& graph, const std::vector<Eigen::Matrix3d>& frames, Workers* workers,
+                         std::optional<double> soft_weight)
     : neighbours_((CheckFieldGraph(graph), graph)), frames_(frames), workers_(workers) {
   const std::size_t num_vertices = graph.num_vertices();
   if (frames.size() != num_vertices) {
@@ -65,10 +68,43 @@ FrameEnergy::FrameEnergy(const FieldGraph& graph, const std::vector<Eigen::Matri
   first_parameter_.reserve(num_vertices + 1);
   for (std::size_t v = 0; v < num_vertices; ++v) {
     const AlignmentKind kind = graph.alignments[v].kind();
-    const std::size_t num_parameters = kind == AlignmentKind::kFree ? 3 : kind == AlignmentKind::kAxis ? 1 : 0;
+    const bool is_hard = kind != AlignmentKind::kFree && !soft_weight;
+    const std::size_t num_parameters = !is_hard ? 3 : kind == AlignmentKind::kAxis ? 1 : 0;
     first_parameter_.push_back(first_parameter_.back() + num_parameters);
     if (num_parameters == 0) rows_[v].Set(HarmonicOfAxes(frames[v]));
   }
+  if (!soft_weight) return;
+  RootOfWeight("FrameEnergy (soft)", *soft_weight);
+  soft_weight_ = *soft_weight;
+  soft_alignment_of_.assign(num_vertices, -1);
+  for (std::size_t v = 0; v < num_vertices; ++v) {
+    const AlignmentKind kind = graph.alignments[v].kind();
+    if (kind == AlignmentKind::kFree) continue;
+    const AlignedSubspace<4> subspace(graph.alignments[v]);
+    soft_alignment_of_[v] = static_cast<int>(soft_alignments_.size());
+    SoftAlignment& soft = soft_alignments_.emplace_back();
+    soft.basis.setZero();
+    if (kind == AlignmentKind::kAxis) {
+      soft.offset = subspace.offset;
+      soft.basis = subspace.basis;
+    } else {
+      soft.offset = subspace.basis.col(0);
+    }
+  }
+}
+
+// Half the energy of the soft alignment of vertex v, if any, and its derivatives by turns.
+double FrameEnergy::AddSoftAlignment(std::size_t v, Eigen::Vector3d* torque) const {
+  if (soft_alignment_of_.empty() || soft_alignment_of_[v] < 0) return 0;
+  const SoftAlignment& soft = soft_alignments_[soft_alignment_of_[v]];
+  const Eigen::Map<const Hexadecapole> h(rows_[v].values);
+  Hexadecapole difference = h - soft.offset;
+  difference -= soft.basis * (soft.basis.transpose() * difference);
+  const Hexadecapole gradient = soft_weight_ * difference;
+  Eigen::Vector3d soft_torque;
+  SparseGenerators<4>::Instance().Torque(h.data(), gradient.data(), soft_torque.data());
+  *torque += soft_torque;
+  return gradient.dot(difference) / 2;
 }
 
 Eigen::Matrix3d FrameEnergy::FrameOf(const double* parameters, std::size_t v) const {
@@ -103,6 +139,7 @@ bool FrameEnergy::Evaluate(const double* parameters, double* cost, double* gradi
     for (std::size_t v = begin; v < end; ++v) {
       Eigen::Vector3d torque;
       energy += sweep_vertex(neighbours_, rows_.data(), generators, v, torque.data());
+      energy += AddSoftAlignment(v, &torque);
       const std::size_t num_parameters = first_parameter_[v + 1] - first_parameter_[v];
       if (gradient == nullptr || num_parameters == 0) continue;
       double* derivatives = gradient + first_parameter_[v];

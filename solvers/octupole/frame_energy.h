@@ -4,10 +4,12 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "octupole/field_graph.h"
 #include "octupole/harmonic_rows.h"
+#include "octupole/harmonics.h"
 #include "octupole/neighbour_lists.h"
 #include "octupole/workers.h"
 
@@ -20,14 +22,20 @@ namespace octupole {
 /// the quaternion (1, r) (Cayley), by 2 atan |r| about r; so x is nearly the rotation vector and no angle is singular
 /// but half a turn. An axis leaves one, the angle about it. A prescribed frame has none. All zero gives the given
 /// frames.
+///
+/// With soft alignments every vertex has three parameters, whatever its alignment, and each aligned one adds half of
+/// soft_weight times the squared distance from its harmonic to those of degree 4 that the alignment allows: to
+/// AlignedSubspace<4> of an axis, as AlignmentCost, and to the harmonic of a prescribed frame.
 class FrameEnergy final : public ceres::FirstOrderFunction {
  public:
   /// \param frames one per vertex, which keep to the alignments: the third column along an axis (see
   /// NearestAlignedFrame).
   ///     `workers` must outlive the function.
-  /// \throw std::invalid_argument when the graph is malformed (see CheckFieldGraph) or there are not as many frames as
-  /// vertices.
-  FrameEnergy(const FieldGraph& graph, const std::vector<Eigen::Matrix3d>& frames, Workers* workers);
+  /// \param soft_weight if given, alignments are soft, and the frames need not keep to them.
+  /// \throw std::invalid_argument when the graph is malformed (see CheckFieldGraph), there are not as many frames as
+  /// vertices, or soft_weight is negative or not finite.
+  FrameEnergy(const FieldGraph& graph, const std::vector<Eigen::Matrix3d>& frames, Workers* workers,
+              std::optional<double> soft_weight = std::nullopt);
 
   int NumParameters() const override { return static_cast<int>(first_parameter_.back()); }
 
@@ -39,13 +47,23 @@ class FrameEnergy final : public ceres::FirstOrderFunction {
   std::vector<Eigen::Matrix3d> FramesOf(const std::vector<double>& parameters) const;
 
  private:
+  struct SoftAlignment {
+    Hexadecapole offset;
+    Eigen::Matrix<double, kDimension<4>, 2> basis;
+  };
+
   Eigen::Matrix3d FrameOf(const double* parameters, std::size_t v) const;
   void Expand(const double* parameters, std::size_t begin, std::size_t end) const;
+  double AddSoftAlignment(std::size_t v, Eigen::Vector3d* torque) const;
 
   internal::NeighbourLists neighbours_;
   std::vector<Eigen::Matrix3d> frames_;
   /// Of each vertex, and the end.
   std::vector<std::size_t> first_parameter_;
+  /// The subspaces of soft alignments, and for each vertex the number of its own or -1.
+  std::vector<SoftAlignment> soft_alignments_;
+  std::vector<int> soft_alignment_of_;
+  double soft_weight_ = 0;
   Workers* workers_;
   /// The harmonics of the last evaluation, with a row of zeros for the filling of the neighbour lists.
   mutable std::vector<internal::HarmonicRow<4>> rows_;

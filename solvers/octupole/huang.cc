@@ -1,0 +1,31 @@
+#include "octupole/huang.h"
+
+#include <random>
+#include <vector>
+
+#include "octupole/coarse_graph.h"
+#include "octupole/frame_energy.h"
+#include "octupole/minimizer.h"
+#include "octupole/random_rotation.h"
+
+namespace octupole {
+
+FrameSolution SolveHuang(const FieldGraph& graph, const MinimizerOptions& options) {
+  CheckFieldGraph(graph);
+  internal::Minimizer minimizer(options);
+  const std::vector<int> order = BreadthFirstOrder(graph);
+  const FieldGraph ordered = Reorder(graph, order);
+  std::mt19937 generator(options.seed);
+  const internal::Frames start(graph.num_vertices(), RandomRotation(&generator).toRotationMatrix());
+  const FrameEnergy energy(ordered, start, minimizer.workers(), kHuangBoundaryWeight);
+  std::vector<double> x(energy.NumParameters(), 0);
+  FrameSolution result;
+  result.energy = minimizer.Minimize(energy, ordered, internal::kFrameTolerance, &x);
+  result.termination = minimizer.termination();
+  result.frames = internal::InOriginalOrder(order, energy.FramesOf(x));
+  result.iterations = minimizer.iterations();
+  result.size = SizeOfProblem(graph, {3, 3, 3});
+  return result;
+}
+
+}  // namespace octupole

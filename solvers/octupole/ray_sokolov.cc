@@ -1,0 +1,32 @@
+#include "octupole/ray_sokolov.h"
+
+#include <vector>
+
+#include "octupole/coarse_graph.h"
+#include "octupole/field_problem.h"
+#include "octupole/minimizer.h"
+
+namespace octupole {
+namespace {
+
+// Relative decrease per iteration at which the least squares end.
+constexpr double kLinearTolerance = 1e-5;
+
+}  // namespace
+
+FrameSolution SolveRaySokolov(const FieldGraph& graph, const MinimizerOptions& options) {
+  CheckFieldGraph(graph);
+  internal::Minimizer minimizer(options);
+  const std::vector<int> order = BreadthFirstOrder(graph);
+  const FieldGraph ordered = Reorder(graph, order);
+  internal::Frames frames = internal::LinearFrames(ordered, kLinearTolerance, options.seed, &minimizer);
+  FrameSolution result;
+  result.energy = internal::PolishFrames(ordered, &minimizer, &frames);
+  result.termination = minimizer.termination();
+  result.frames = internal::InOriginalOrder(order, frames);
+  result.iterations = minimizer.iterations();
+  result.size = SizeOfProblem(graph, kUnknownsOfKind<4>);
+  return result;
+}
+
+}  // namespace octupole
