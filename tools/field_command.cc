@@ -260,6 +260,10 @@ void AddFieldCommand(CLI::App* app) {
   command->add_option("-o,--output", arguments->output, "The field, for ParaView; by default MESH_field.vtu, here")
       ->option_text("F.vtu");
   command->add_option("--report", arguments->report, "All figures as JSON")->option_text("F.json");
+  command->add_option("--fra", arguments->fra, "One frame per tet as text, for hexahedral meshers")
+      ->option_text("F.fra");
+  command->add_option("--quaternions", arguments->quaternions, "One frame per vertex as text: w x y z")
+      ->option_text("F.txt");
   command
       ->add_option_function<std::string>(
           "--method", [arguments](const std::string& name) { arguments->method = kMethodOfName.at(name); },
