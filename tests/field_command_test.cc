@@ -2,15 +2,14 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 
+#include "command_line.h"
 #include "corpus.h"
 #include "test_files.h"
 
@@ -21,39 +20,13 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-struct Outcome {
-  int exit_code;  // -1 when a signal ended it
-  std::string out;
-  std::string err;
-};
-
-std::string Quoted(const std::filesystem::path& path) { return "'" + path.string() + "'"; }
-
-Outcome Shell(const std::string& command) {
-  const TemporaryFolder folder;
-  const int status =
-      std::system((command + " </dev/null >" + Quoted(folder / "out") + " 2>" + Quoted(folder / "err")).c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, ReadText(folder / "out"), ReadText(folder / "err")};
-}
-
 Outcome RunField(const std::string& arguments) { return Shell(OCTUPOLE_COMMAND " field " + arguments); }
-
-std::string Bracket() { return Quoted(OCTUPOLE_SOURCE_DIR "/examples/data/bracket.mesh"); }
-
-json ReadReport(const std::filesystem::path& path) { return json::parse(ReadText(path)); }
 
 json ReadField(const std::filesystem::path& field, const std::string& mesh) {
   const Outcome outcome =
       Shell("/usr/bin/python3 " OCTUPOLE_SOURCE_DIR "/tests/read_field.py " + Quoted(field) + " " + mesh);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   return json::parse(outcome.out);
-}
-
-// Names of what is in a folder.
-std::set<std::string> ContentsOf(const std::filesystem::path& folder) {
-  std::set<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) names.insert(entry.path().filename().string());
-  return names;
 }
 
 TEST(FieldCommand, WritesFieldReportAndSummary) {
@@ -121,9 +94,9 @@ TEST(FieldCommand, TakesEverySolverAndIsQuietWhenAsked) {
 
 TEST(FieldCommand, WritesFramesForOtherPrograms) {
   const TemporaryFolder folder;
-  const Outcome outcome = RunField(Bracket() + " --max-iterations 5 --output " + Quoted(folder / "field.vtu") +
-                                   " --fra " + Quoted(folder / "field.fra") + " --quaternions " +
-                                   Quoted(folder / "field.txt"));
+  const Outcome outcome =
+      RunField(Bracket() + " --max-iterations 5 --output " + Quoted(folder / "field.vtu") + " --fra " +
+               Quoted(folder / "field.fra") + " --quaternions " + Quoted(folder / "field.txt"));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr((folder / "field.fra").string()));
   const std::string fra = ReadText(folder / "field.fra"), quaternions = ReadText(folder / "field.txt");

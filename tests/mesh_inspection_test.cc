@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "octupole/box_mesh.h"
@@ -122,6 +123,20 @@ TEST(InspectMesh, OverfullTriangle) {
                      {{0, 1, 2, 3}, {0, 1, 2, 4}, {0, 2, 1, 5}},
                      {}};
   EXPECT_EQ(InspectMesh(mesh).overfull_triangles, 1);
+}
+
+TEST(MeanRatios, IsOneForRegularTets) {
+  TetMesh mesh{{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}, {5, 5, 5}}, {{0, 1, 2, 3}, {1, 0, 2, 3}}, {}};
+  const double sign = MeanRatios(mesh)[0] < 0 ? -1 : 1;
+  EXPECT_NEAR(sign * MeanRatios(mesh)[0], 1, 1e-15);
+  EXPECT_NEAR(sign * MeanRatios(mesh)[1], -1, 1e-15);
+  // The corner of a cube: V = 1/6 and squared lengths 1, 1, 1, 2, 2, 2.
+  mesh = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2, 3}}, {}};
+  EXPECT_NEAR(MeanRatios(mesh)[0], 12 * std::pow(0.5, 2. / 3) / 9, 1e-15);
+  for (Eigen::Vector3d& p : mesh.points) p *= 1e-9;
+  EXPECT_NEAR(MeanRatios(mesh)[0], 12 * std::pow(0.5, 2. / 3) / 9, 1e-15);
+  mesh.points[3].setZero();
+  EXPECT_EQ(MeanRatios(mesh)[0], 0);
 }
 
 TEST(MeshWarnings, OneLineForEachKind) {

@@ -3,12 +3,14 @@
 #include <exception>
 
 #include "field_command.h"
+#include "info_command.h"
 
 int main(int argc, char** argv) {
   CLI::App app("Volumetric frame fields on tetrahedral meshes.", "octupole");
   app.set_version_flag("--version", OCTUPOLE_VERSION);
   app.require_subcommand(1);
   octupole::AddFieldCommand(&app);
+  octupole::AddInfoCommand(&app);
   // Commands run as CLI11 callbacks, so whatever they throw comes out of parse().
   try {
     app.parse(argc, argv);

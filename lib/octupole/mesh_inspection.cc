@@ -134,4 +134,17 @@ std::vector<std::string> MeshWarnings(const MeshInspection& inspection) {
   return warnings;
 }
 
+std::vector<double> MeanRatios(const TetMesh& mesh) {
+  std::vector<double> ratios = SixfoldVolumes(mesh);
+  for (std::size_t t = 0; t < ratios.size(); ++t) {
+    double sum_of_squares = 0;
+    for (const auto& [a, b] : internal::kTetEdges) {
+      sum_of_squares += (mesh.points[mesh.tets[t][a]] - mesh.points[mesh.tets[t][b]]).squaredNorm();
+    }
+    const double root = std::cbrt(ratios[t] / 2);
+    ratios[t] = sum_of_squares > 0 ? std::copysign(12 * root * root / sum_of_squares, ratios[t]) : 0;
+  }
+  return ratios;
+}
+
 }  // namespace octupole

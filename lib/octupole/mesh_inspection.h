@@ -36,4 +36,9 @@ MeshInspection InspectMesh(const TetMesh& mesh);
 /// A line for the user about each count that is odd; empty for a clean mesh.
 std::vector<std::string> MeshWarnings(const MeshInspection& inspection);
 
+/// The mean ratio of each tetrahedron, 12 (3 V)^(2/3) over the sum of its squared edge lengths: 1 for a regular one, 0
+/// for one without volume, and negative, with the magnitude of its mirror image, for an inverted one. Expects a mesh
+/// that satisfies CheckTetMesh().
+std::vector<double> MeanRatios(const TetMesh& mesh);
+
 }  // namespace octupole

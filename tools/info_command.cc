@@ -1,0 +1,163 @@
+#include "info_command.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "octupole/atomic_file.h"
+#include "octupole/boundary_alignment.h"
+#include "octupole/mesh_inspection.h"
+#include "octupole/mesh_io.h"
+#include "octupole/mesh_topology.h"
+#include "octupole/surface_singularities.h"
+
+namespace octupole {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct Arguments {
+  std::filesystem::path mesh;
+  std::filesystem::path report;
+  bool quiet = false;
+};
+
+ordered_json DescribeRegions(const TetMesh& mesh) {
+  std::map<int, std::size_t> tets_of;
+  for (const int region : mesh.regions) ++tets_of[region];
+  ordered_json regions = ordered_json::array();
+  for (const auto& [tag, count] : tets_of) regions.push_back({{"tag", tag}, {"tets", count}});
+  return regions;
+}
+
+ordered_json DescribeQuality(const TetMesh& mesh) {
+  const std::vector<double> ratios = MeanRatios(mesh);
+  const auto [least, largest] = std::minmax_element(ratios.begin(), ratios.end());
+  return {{"min", *least},
+          {"mean", std::accumulate(ratios.begin(), ratios.end(), 0.) / static_cast<double>(ratios.size())},
+          {"max", *largest}};
+}
+
+// The shells of the boundary. Their topology does not depend on the frames, so that a constant field will do.
+ordered_json DescribeShells(const TetMesh& mesh, const std::vector<std::array<int, 3>>& triangles) {
+  const std::vector<Eigen::Matrix3d> constant(mesh.points.size(), Eigen::Matrix3d::Identity());
+  ordered_json shells = ordered_json::array();
+  for (const SurfaceComponent& shell : FindSurfaceSingularities(mesh.points, triangles, constant).components) {
+    shells.push_back({{"triangles", shell.triangles}, {"euler_characteristic", shell.euler_characteristic}});
+    if (shell.is_closed) {
+      shells.back()["genus"] = (2 - shell.euler_characteristic) / 2;
+    } else {
+      shells.back()["genus"] = nullptr;
+    }
+  }
+  return shells;
+}
+
+ordered_json DescribeFeatures(TetMesh mesh) {
+  const std::size_t num_points = mesh.feature_points.size();
+  const std::size_t num_marked = mesh.feature_edges.size();
+  mesh.feature_edges.clear();
+  mesh.feature_points.clear();
+  return {{"marked_edges", num_marked},
+          {"marked_points", num_points},
+          {"sharp_edges", AlignToBoundary(mesh).num_feature_edges}};
+}
+
+ordered_json Describe(const std::filesystem::path& path) {
+  std::vector<std::string> warnings;
+  const TetMesh mesh = ReadTetMesh(path, &warnings);
+  const MeshInspection inspection = InspectMesh(mesh);
+  for (std::string& warning : MeshWarnings(inspection)) warnings.push_back(std::move(warning));
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& point : mesh.points) box.extend(point);
+  const auto triangles = BoundaryTriangles(mesh);
+  return {{"mesh", path.string()},
+          {"vertices", mesh.points.size()},
+          {"edges", MeshEdges(mesh).size()},
+          {"triangles", MeshTriangles(mesh).size()},
+          {"tets", mesh.tets.size()},
+          {"bounding_box", {{"min", box.min()}, {"max", box.max()}}},
+          {"regions", DescribeRegions(mesh)},
+          {"components", inspection.components},
+          {"boundary_triangles", triangles.size()},
+          {"boundary_components", DescribeShells(mesh, triangles)},
+          {"features", DescribeFeatures(mesh)},
+          {"mean_ratio", DescribeQuality(mesh)},
+          {"inverted_tets", inspection.inverted_tets},
+          {"zero_volume_tets", inspection.zero_volume_tets},
+          {"duplicate_tets", inspection.duplicate_tets},
+          {"isolated_vertices", inspection.isolated_vertices},
+          {"duplicate_vertices", inspection.duplicate_vertices},
+          {"overfull_triangles", inspection.overfull_triangles},
+          {"non_manifold_boundary_edges", inspection.non_manifold_boundary_edges},
+          {"warnings", warnings}};
+}
+
+// A list of at most a few items: a mesh may have thousands of regions or shells.
+class Enumeration {
+ public:
+  void Add(const std::string& item) {
+    constexpr int kMaxItems = 6;
+    if (++count_ <= kMaxItems) text_ += (count_ > 1 ? ", " : "") + item;
+    if (count_ == kMaxItems + 1) text_ += ", ...";
+  }
+  const char* text() const { return text_.c_str(); }
+
+ private:
+  std::string text_;
+  int count_ = 0;
+};
+
+void Print(const ordered_json& info) {
+  const auto count = [](const ordered_json& object, const char* key) { return object.at(key).get<long long>(); };
+  std::printf("%s: %lld vertices, %lld edges, %lld triangles, %lld tets\n", info["mesh"].get<std::string>().c_str(),
+              count(info, "vertices"), count(info, "edges"), count(info, "triangles"), count(info, "tets"));
+  const auto& min = info["bounding_box"]["min"];
+  const auto& max = info["bounding_box"]["max"];
+  std::printf("box         %.6g..%.6g, %.6g..%.6g, %.6g..%.6g\n", min[0].get<double>(), max[0].get<double>(),
+              min[1].get<double>(), max[1].get<double>(), min[2].get<double>(), max[2].get<double>());
+  Enumeration regions, shells;
+  for (const auto& region : info["regions"]) {
+    regions.Add(std::to_string(count(region, "tag")) + " (" + std::to_string(count(region, "tets")) + " tets)");
+  }
+  std::printf("regions     %zu%s%s\n", info["regions"].size(), info["regions"].empty() ? "" : ": ", regions.text());
+  for (const auto& shell : info["boundary_components"]) {
+    shells.Add(shell["genus"].is_null() ? "not closed" : "genus " + std::to_string(count(shell, "genus")));
+  }
+  std::printf("components  %lld; boundary %zu: %s; %lld triangles\n", count(info, "components"),
+              info["boundary_components"].size(), shells.text(), count(info, "boundary_triangles"));
+  const auto& features = info["features"];
+  std::printf("features    %lld edges and %lld points marked; %lld edges sharper than 40 degrees\n",
+              count(features, "marked_edges"), count(features, "marked_points"), count(features, "sharp_edges"));
+  const auto& quality = info["mean_ratio"];
+  std::printf("quality     mean ratio %.3f, least %.3f, largest %.3f\n", quality["mean"].get<double>(),
+              quality["min"].get<double>(), quality["max"].get<double>());
+  for (const auto& warning : info["warnings"]) std::printf("warning     %s\n", warning.get<std::string>().c_str());
+  if (info["warnings"].empty()) std::printf("nothing odd\n");
+}
+
+}  // namespace
+
+void AddInfoCommand(CLI::App* app) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app->add_subcommand("info", "Say what a tet mesh holds and what is odd about it");
+  command->add_option("mesh", arguments->mesh, "As for field")->required()->option_text("MESH");
+  command->add_option("--report", arguments->report, "The same as JSON")->option_text("F.json");
+  command->add_flag("--quiet", arguments->quiet, "Print errors only");
+  command->callback([arguments] {
+    const ordered_json info = Describe(arguments->mesh);
+    if (!arguments->report.empty()) {
+      WriteFileAtomically(arguments->report, [&](std::ostream& stream) { stream << info.dump(2) << "\n"; });
+    }
+    if (!arguments->quiet) Print(info);
+  });
+}
+
+}  // namespace octupole
