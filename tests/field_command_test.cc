@@ -7,10 +7,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 #include <string>
 
 #include "command_line.h"
 #include "corpus.h"
+#include "cylinder_mesh.h"
 #include "test_files.h"
 
 namespace octupole {
@@ -21,6 +23,15 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 Outcome RunField(const std::string& arguments) { return Shell(OCTUPOLE_COMMAND " field " + arguments); }
+
+void WriteMedit(const std::filesystem::path& path, const TetMesh& mesh) {
+  std::ostringstream text;
+  text << "MeshVersionFormatted 2\nDimension 3\nVertices\n" << mesh.points.size() << "\n";
+  for (const Eigen::Vector3d& p : mesh.points) text << p.transpose() << " 0\n";
+  text << "Tetrahedra\n" << mesh.tets.size() << "\n";
+  for (const auto& [a, b, c, d] : mesh.tets) text << a + 1 << " " << b + 1 << " " << c + 1 << " " << d + 1 << " 0\n";
+  WriteText(path, text.str() + "End\n");
+}
 
 json ReadField(const std::filesystem::path& field, const std::string& mesh) {
   const Outcome outcome =
@@ -74,6 +85,47 @@ TEST(FieldCommand, WritesFieldReportAndSummary) {
     EXPECT_EQ(field["alignments"][1], normals_and_tangents);
     EXPECT_EQ(field["alignments"][2], alignment["frames"]);
   }
+}
+
+// A cylinder's four curves, as meshio reads them.
+TEST(FieldCommand, WritesAndReportsTheSingularStructure) {
+  const TemporaryFolder folder;
+  WriteMedit(folder / "cylinder.mesh", MakeCylinderMesh(6, 6, 2));
+  const Outcome outcome =
+      RunField(Quoted(folder / "cylinder.mesh") + " --output " + Quoted(folder / "field.vtu") + " --report " +
+               Quoted(folder / "report.json") + " --singularities " + Quoted(folder / "curves.vtu"));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("4 curves (valence 3: 4, 5: 0, other: 0)"));
+  const json structure = ReadReport(folder / "report.json")["singular_structure"];
+  EXPECT_EQ(structure["curves"], 4);
+  EXPECT_NEAR(structure["length"].get<double>(), 8, .5);
+  for (const char* key : {"loops", "nodes", "node_ends", "open_ends"}) EXPECT_EQ(structure[key], 0) << key;
+  EXPECT_EQ(structure["boundary_ends"], 8);
+  ASSERT_EQ(structure["curves_by_type"].size(), 1u);
+  EXPECT_EQ(structure["curves_by_type"][0]["type"], "quarter");
+  EXPECT_EQ(structure["curves_by_type"][0]["valence"], 3);
+  EXPECT_EQ(structure["curves_by_type"][0]["length"], structure["length"]);
+  EXPECT_EQ(structure["surface_points"], 8);
+  EXPECT_EQ(structure["surface_points_by_index"], json({{"0.25", 8}}));
+  ASSERT_EQ(structure["boundary_components"].size(), 1u);
+  EXPECT_EQ(structure["boundary_components"][0]["index_sum"], 2);
+  EXPECT_EQ(structure["boundary_components"][0]["euler_characteristic"], 2);
+  EXPECT_EQ(structure["boundary_components"][0]["closed"], true);
+  EXPECT_EQ(structure["boundary_components"][0]["all_normal"], false);
+
+  const Outcome read = Shell(
+      "/usr/bin/python3 -c \"import meshio, json, sys; m = meshio.read(sys.argv[1]); "
+      "print(json.dumps({k: sorted(set(d.tolist())) for k, d in m.cell_data_dict['type'].items()} | "
+      "{'valence': sorted(set(m.cell_data_dict['valence']['line'].tolist())), "
+      "'curve': sorted(set(m.cell_data_dict['curve']['line'].tolist())), "
+      "'quarter_index': m.cell_data_dict['quarter_index']['vertex'].tolist()}))\" " +
+      Quoted(folder / "curves.vtu"));
+  ASSERT_EQ(read.exit_code, 0) << read.err;
+  EXPECT_EQ(json::parse(read.out), json({{"line", {1}},
+                                         {"vertex", {0}},
+                                         {"valence", {3}},
+                                         {"curve", {0, 1, 2, 3}},
+                                         {"quarter_index", std::vector<int>(8, 1)}}));
 }
 
 TEST(FieldCommand, TakesEverySolverAndIsQuietWhenAsked) {
@@ -166,7 +218,7 @@ TEST(FieldCommand, RefusesBadInputInOneLineAndTouchesNothing) {
 
 TEST(FieldCommand, SaysBeforeItSolvesThatItCannotWrite) {
   const TemporaryFolder folder;
-  for (const std::string option : {"--output", "--report"}) {
+  for (const std::string option : {"--output", "--report", "--singularities"}) {
     // Unbounded iterations: solving first would show in the test's time.
     const Outcome outcome = RunField(Bracket() + " " + option + " " + Quoted(folder / "missing" / "file"));
     EXPECT_EQ(outcome.exit_code, 1);

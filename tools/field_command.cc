@@ -23,9 +23,13 @@
 #include "octupole/field_writer.h"
 #include "octupole/mesh_inspection.h"
 #include "octupole/mesh_io.h"
-#include "octupole/octahedral_group.h"
+#include "octupole/mesh_topology.h"
+#include "octupole/singular_curves.h"
+#include "octupole/singularity_writer.h"
 #include "octupole/solver_presets.h"
+#include "octupole/surface_singularities.h"
 #include "octupole/tet_frames.h"
+#include "singularity_report.h"
 
 namespace octupole {
 namespace {
@@ -45,6 +49,7 @@ struct Arguments {
   std::filesystem::path report;
   std::filesystem::path fra;
   std::filesystem::path quaternions;
+  std::filesystem::path singularities;
   FieldMethod method = FieldMethod::kPenalty;
   /// By default 3, and 4 for the methods that know no other.
   std::optional<int> degree;
@@ -109,14 +114,6 @@ void CheckFolderOf(const std::filesystem::path& file) {
   throw std::runtime_error(file.string() + ": there is no folder " + folder.string());
 }
 
-nlohmann::ordered_json CountsByType(const FieldQuality& quality) {
-  const auto& count = quality.singular_triangles_of_type;
-  return {{"quarter", count[static_cast<int>(TurnType::kQuarter)]},
-          {"half", count[static_cast<int>(TurnType::kHalf)]},
-          {"diagonal_half", count[static_cast<int>(TurnType::kDiagonalHalf)]},
-          {"third", count[static_cast<int>(TurnType::kThird)]}};
-}
-
 void PrintSummary(const Arguments& arguments, const nlohmann::ordered_json& report) {
   const auto number = [&](const char* key) { return report[key].get<double>(); };
   const auto& alignment = report["alignment"];
@@ -138,18 +135,20 @@ void PrintSummary(const Arguments& arguments, const nlohmann::ordered_json& repo
               number("energy4"));
   std::printf("field      %d singular triangles, boundary error %.2g degrees (largest %.2g)\n",
               report["singular_triangles"].get<int>(), number("boundary_rms_deg"), number("boundary_max_deg"));
+  std::printf("singular   %s\n", SummaryOf(report["singular_structure"]).c_str());
   const auto& seconds = report["seconds"];
   std::printf("seconds    read %.2f, setup %.2f, solve %.2f, project %.2f, write %.2f\n", seconds["read"].get<double>(),
               seconds["setup"].get<double>(), seconds["solve"].get<double>(), seconds["project"].get<double>(),
               seconds["write"].get<double>());
-  for (const auto* file : {&arguments.output, &arguments.fra, &arguments.quaternions}) {
+  for (const auto* file : {&arguments.output, &arguments.fra, &arguments.quaternions, &arguments.singularities}) {
     if (!file->empty()) std::printf("written    %s\n", file->string().c_str());
   }
 }
 
 template <int kDegree>
 void RunField(const Arguments& arguments) {
-  for (const auto* file : {&arguments.output, &arguments.report, &arguments.fra, &arguments.quaternions}) {
+  for (const auto* file :
+       {&arguments.output, &arguments.report, &arguments.fra, &arguments.quaternions, &arguments.singularities}) {
     CheckFolderOf(*file);
   }
   const InterruptionGuard guard;
@@ -192,11 +191,17 @@ void RunField(const Arguments& arguments) {
                              (field.ceres_summary ? field.ceres_summary->message : "the energy is not finite"));
   }
   const FieldQuality quality = MeasureField(mesh, field.frames);
+  const SingularCurves curves = TraceSingularCurves(mesh, field.frames, FindSingularTriangles(mesh, field.frames));
+  const auto boundary = BoundaryTriangles(mesh);
+  const SurfaceSingularities surface = FindSurfaceSingularities(mesh.points, boundary, field.frames);
 
   stopwatch.Lap();
   WriteField<kDegree>(arguments.output, mesh, field.coefficients, field.frames, field.alignment.alignments);
   if (!arguments.fra.empty()) WriteFra(arguments.fra, TetFrames(mesh, field.frames));
   if (!arguments.quaternions.empty()) WriteQuaternions(arguments.quaternions, field.frames);
+  if (!arguments.singularities.empty()) {
+    WriteSingularities(arguments.singularities, curves, mesh.points, boundary, surface.quarter_indices);
+  }
   const double write_seconds = stopwatch.Lap();
 
   nlohmann::ordered_json report = {
@@ -229,6 +234,7 @@ void RunField(const Arguments& arguments) {
       {"boundary_max_deg", quality.boundary_max_deg},
       {"singular_triangles", quality.singular_triangles},
       {"singular_triangles_by_type", CountsByType(quality)},
+      {"singular_structure", SingularStructure(curves, surface)},
       {"seconds",
        {{"read", read_seconds},
         {"setup", field.setup_seconds},
@@ -264,6 +270,8 @@ void AddFieldCommand(CLI::App* app) {
       ->option_text("F.fra");
   command->add_option("--quaternions", arguments->quaternions, "One frame per vertex as text: w x y z")
       ->option_text("F.txt");
+  command->add_option("--singularities", arguments->singularities, "Singular curves and points as lines and vertices")
+      ->option_text("F.vtu");
   command
       ->add_option_function<std::string>(
           "--method", [arguments](const std::string& name) { arguments->method = kMethodOfName.at(name); },

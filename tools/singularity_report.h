@@ -1,0 +1,21 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "octupole/field_quality.h"
+#include "octupole/singular_curves.h"
+#include "octupole/surface_singularities.h"
+
+namespace octupole {
+
+/// {"quarter": n, ...}, whose sum is that of all singular triangles.
+nlohmann::ordered_json CountsByType(const FieldQuality& quality);
+
+/// The section "singular_structure" of the report.
+nlohmann::ordered_json SingularStructure(const SingularCurves& curves, const SurfaceSingularities& surface);
+
+/// Its line in the printed summary.
+std::string SummaryOf(const nlohmann::ordered_json& singular_structure);
+
+}  // namespace octupole
