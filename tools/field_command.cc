@@ -260,7 +260,7 @@ void RunField(const Arguments& arguments) {
 void AddFieldCommand(CLI::App* app) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app->add_subcommand("field", "Compute a frame field on a tet mesh");
-  command->add_option("mesh", arguments->mesh, "Medit .mesh, legacy .vtk or Gmsh .msh, as text")
+  command->add_option("mesh", arguments->mesh, ".mesh (Medit), .vtk, .vtu, .msh (Gmsh), .node/.ele (TetGen), .ovm (OpenVolumeMesh) or .tet")
       ->required()
       ->option_text("MESH");
   command->add_option("-o,--output", arguments->output, "The field, for ParaView; by default MESH_field.vtu, here")

@@ -8,17 +8,26 @@
 
 namespace octupole {
 
-/// Reads the tetrahedra of a text file, in the format that its extension names:
+/// Reads the tetrahedra of a file, in the format that its extension names:
 ///
-/// - `.mesh`: Medit. The region of a tetrahedron is its tag.
-/// - `.vtk`: legacy VTK, an unstructured grid. The regions are the first scalar array of integers
-///   among the cell data.
-/// - `.msh`: Gmsh 2.x and 4.1. The region is the first physical tag, or in 4.1 the number of the
-///   volume if it has none.
+/// - `.mesh`: Medit as text. The region of a tetrahedron is its tag. Features are the Edges (of them only Ridges and
+///   RequiredEdges if there are such) and Corners.
+/// - `.vtk`: legacy VTK, text or binary, an unstructured grid. The regions are the first array of one integer per
+///   cell. Features are the lines, polylines and vertices.
+/// - `.vtu`: VTK's XML, the same. Arrays in text or binary, inline or appended, plain or compressed with zlib.
+///   Pieces are put one behind the other.
+/// - `.msh`: Gmsh 2.x and 4.1, text or binary. The region is the first physical tag, or in 4.1 the number of the
+///   volume if it has none. Features are the lines and points.
+/// - `.node` and `.ele`: TetGen; either is given, the other is beside it. Both count from 0 or from 1. The region is
+///   the first attribute if all are integers. Features are the edges of an `.edge` file beside them that have a
+///   marker other than 0.
+/// - `.ovm`: OpenVolumeMesh as text, without its properties.
+/// - `.tet`: lines "N vertices" and "N tets" or "N cells", the coordinates, then "4" and four indices from 0 per cell.
 ///
 /// Points and tetrahedra keep the order of the file, and all points are kept, used or not.
-/// Tetrahedra of second order (in Gmsh also third) are read as their corners; other cells are left
-/// out. `warnings`, if given, receives a line for each of these.
+/// Tetrahedra of higher order are read as their corners, lines as their ends; other cells are left out, and so are
+/// features that are not in the mesh. Edges that are all there are mark nothing and are left out, too. Features are in
+/// ascending order. `warnings`, if given, receives a line for each kind of what is left out.
 ///
 /// The result satisfies CheckTetMesh().
 ///

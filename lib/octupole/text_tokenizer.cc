@@ -26,28 +26,32 @@ bool IsCloseToZero(std::string_view word) {
 
 }  // namespace
 
-std::string ReadTextFile(const std::filesystem::path& path) {
+FileContent::FileContent(const std::filesystem::path& path) {
   // The size fails with a good reason for what is missing, a directory or a device.
   std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  size_ = std::filesystem::file_size(path, error);
   if (error) {
     throw std::runtime_error(path.string() + ": cannot be read: " + error.message());
   }
   errno = 0;
   std::ifstream file(path, std::ios::binary);
-  std::string text;
   if (file) {
-    text.resize(size);
-    file.read(text.data(), static_cast<std::streamsize>(size));
+    bytes_.reset(new char[size_]);
+    file.read(bytes_.get(), static_cast<std::streamsize>(size_));
   }
   if (!file) {
     throw std::runtime_error(path.string() + ": cannot be read: " + std::generic_category().message(errno));
   }
-  return text;
 }
 
-TextTokenizer::TextTokenizer(std::string path, std::string_view text, char comment)
-    : path_(std::move(path)), next_(text.data()), end_(text.data() + text.size()), comment_(comment) {}
+TextTokenizer::TextTokenizer(std::string path, std::string_view text, char comment, int first_line)
+    : path_(std::move(path)),
+      begin_(text.data()),
+      next_(text.data()),
+      end_(text.data() + text.size()),
+      comment_(comment),
+      line_(first_line),
+      word_line_(first_line) {}
 
 void TextTokenizer::SkipSpace() {
   while (next_ != end_) {
@@ -72,7 +76,7 @@ bool TextTokenizer::AtLineEnd() {
   while (next_ != end_ && *next_ != '\n' && IsSpace(*next_)) {
     ++next_;
   }
-  return next_ == end_ || *next_ == '\n';
+  return next_ == end_ || *next_ == '\n' || *next_ == comment_;
 }
 
 void TextTokenizer::FindWord() {
@@ -134,20 +138,28 @@ double TextTokenizer::NextReal(const char* what) {
     }
     Fail(Quoted(word) + " where " + what + " was expected");
   }
+  CheckFinite(value, what);
+  return value;
+}
+
+void TextTokenizer::CheckFinite(double value, const char* what) const {
   if (!std::isfinite(value)) {
     Fail(std::to_string(value) + " where a finite number was expected for " + what);
   }
-  return value;
 }
 
 int TextTokenizer::NextCount(const char* what, int words_each) {
   const std::int64_t count = NextInteger((std::string("the number of ") + what).c_str());
+  return CheckCount(count, what, 2 * words_each);  // a word takes two bytes at least, with the white space before it
+}
+
+int TextTokenizer::CheckCount(std::int64_t count, const char* what, int bytes_each) {
   if (count < 0) {
     Fail(std::to_string(count) + " as the number of " + what);
   }
-  // Every word takes two bytes at least, with the white space before it.
   const std::int64_t bytes = end_ - next_;
-  if (count > bytes / 2 / words_each || count > std::numeric_limits<int>::max()) {
+  // A first word may lack the white space, so there may be one byte less.
+  if (count > (bytes + 1) / bytes_each || count > std::numeric_limits<int>::max()) {
     Fail(std::to_string(count) + " " + what + " announced, but only " + std::to_string(bytes) + " bytes follow");
   }
   expected_items_ = std::to_string(count) + " " + what;
@@ -162,12 +174,50 @@ void TextTokenizer::SkipWords(std::int64_t count) {
 
 std::string_view TextTokenizer::SkipLine() {
   const char* begin = next_;
-  next_ = std::find(next_, end_, '\n');
-  return {begin, static_cast<std::size_t>(next_ - begin)};
+  const char* end = std::find(next_, end_, '\n');
+  next_ = end;
+  if (next_ != end_) {
+    ++next_;
+    ++line_;
+  }
+  return {begin, static_cast<std::size_t>(end - begin)};
+}
+
+void TextTokenizer::SkipToLetter() {
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  while (!AtEnd() && !is_letter(*next_)) {
+    NextWord();
+  }
+}
+
+bool TextTokenizer::SkipBeyond(std::string_view text) {
+  const std::size_t position = std::string_view(next_, static_cast<std::size_t>(end_ - next_)).find(text);
+  if (position == std::string_view::npos) {
+    return false;
+  }
+  line_ += static_cast<int>(std::count(next_, next_ + position, '\n'));
+  next_ += position + text.size();
+  return true;
+}
+
+void TextTokenizer::BeginBinary() {
+  SkipLine();
+  is_binary_ = true;
+}
+
+std::string_view TextTokenizer::NextBytes(std::int64_t count, int bytes_each, const char* what) {
+  if (count < 0 || count > (end_ - next_) / bytes_each) {
+    Fail("the file ends before " + std::string(what));
+  }
+  const std::string_view bytes(next_, static_cast<std::size_t>(count * bytes_each));
+  next_ += bytes.size();
+  return bytes;
 }
 
 void TextTokenizer::Fail(const std::string& message) const {
-  throw std::runtime_error(path_ + ":" + std::to_string(word_line_) + ": " + message);
+  throw std::runtime_error(path_ +
+                           (is_binary_ ? ":byte " + std::to_string(next_ - begin_) : ":" + std::to_string(word_line_)) +
+                           ": " + message);
 }
 
 std::string Quoted(std::string_view word) {

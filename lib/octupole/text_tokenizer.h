@@ -2,31 +2,41 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 
 namespace octupole::internal {
 
 /// The whole content of a file.
-///
-/// \throw std::runtime_error with the operating system's reason if it cannot be read.
-std::string ReadTextFile(const std::filesystem::path& path);
+class FileContent {
+ public:
+  /// \throw std::runtime_error with the operating system's reason if it cannot be read.
+  explicit FileContent(const std::filesystem::path& path);
+
+  std::string_view text() const { return {bytes_.get(), size_}; }
+
+ private:
+  std::unique_ptr<char[]> bytes_;  // not a std::string, which would fill it with zeros first
+  std::size_t size_;
+};
 
 /// Cuts a text into words at white space and reads numbers from them, in the C locale whatever the
-/// process has set. Small enough to copy: a copy is a bookmark from which to read on later.
+/// process has set. Some formats have numbers in binary between the words: it reads these, too.
+/// Small enough to copy: a copy is a bookmark from which to read on later.
 class TextTokenizer {
  public:
   /// A newline can never start a comment, so as `comment` it means that there are none.
   static constexpr char kNoComments = '\n';
 
   /// `path` only labels the messages. `text` must outlive this object. `comment` starts a comment
-  /// that ends with the line.
-  TextTokenizer(std::string path, std::string_view text, char comment = kNoComments);
+  /// that ends with the line. The text begins on line `first_line` of its file.
+  TextTokenizer(std::string path, std::string_view text, char comment = kNoComments, int first_line = 1);
 
   /// Whether only white space and comments are left.
   bool AtEnd();
 
-  /// Whether only white space is left on the current line.
+  /// Whether only white space and a comment are left on the current line.
   bool AtLineEnd();
 
   /// The next word. All functions below throw as Fail() does if the file ends or does not fit.
@@ -46,10 +56,29 @@ class TextTokenizer {
   /// names the items, here and in the message of a file that ends among them.
   int NextCount(const char* what, int words_each);
 
+  /// The same for a count that was read already, of items of `bytes_each` bytes or more.
+  int CheckCount(std::int64_t count, const char* what, int bytes_each);
+
   void SkipWords(std::int64_t count);
 
-  /// Moves to the end of the current line and returns what was left on it.
+  /// Moves to the next line and returns what was left on this one.
   std::string_view SkipLine();
+
+  /// Moves to the next word that begins with a letter, or to the end.
+  void SkipToLetter();
+
+  /// Moves behind the next place where `text` stands, and returns whether there is one.
+  bool SkipBeyond(std::string_view text);
+
+  /// Moves to the next line, where bytes follow that are no text. From now on
+  /// messages name the byte instead of the line.
+  void BeginBinary();
+
+  /// The next `count` items of `bytes_each` bytes, as they are.
+  std::string_view NextBytes(std::int64_t count, int bytes_each, const char* what);
+
+  /// Refuses NaN and infinity.
+  void CheckFinite(double value, const char* what) const;
 
   /// The line of the last word that was read, from 1.
   int line() const { return word_line_; }
@@ -65,11 +94,13 @@ class TextTokenizer {
   bool Parse(Number* value);
 
   std::string path_;
+  const char* begin_;
   const char* next_;
   const char* end_;
   char comment_;
-  int line_ = 1;
-  int word_line_ = 1;
+  bool is_binary_ = false;
+  int line_;
+  int word_line_;
   std::string expected_items_;
 };
 
