@@ -36,4 +36,7 @@ function(octupole_install_package)
   write_basic_package_version_file(octupole-config-version.cmake COMPATIBILITY SameMinorVersion)
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/octupole-config.cmake
                 ${CMAKE_CURRENT_BINARY_DIR}/octupole-config-version.cmake DESTINATION ${destination})
+  if(OCTUPOLE_WITH_GMSH)
+    install(FILES cmake/FindGmsh.cmake DESTINATION ${destination})
+  endif()
 endfunction()

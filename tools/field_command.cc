@@ -29,6 +29,9 @@
 #include "octupole/solver_presets.h"
 #include "octupole/surface_singularities.h"
 #include "octupole/tet_frames.h"
+#ifdef OCTUPOLE_WITH_GMSH
+#include "octupole/cad_mesher.h"
+#endif
 #include "singularity_report.h"
 
 namespace octupole {
@@ -45,6 +48,8 @@ const std::map<std::string, FieldMethod> kMethodOfName = {{"penalty", FieldMetho
 
 struct Arguments {
   std::filesystem::path mesh;
+  /// Of the tets, where the mesh is a CAD model.
+  std::optional<double> size;
   std::filesystem::path output;
   std::filesystem::path report;
   std::filesystem::path fra;
@@ -114,6 +119,22 @@ void CheckFolderOf(const std::filesystem::path& file) {
   throw std::runtime_error(file.string() + ": there is no folder " + folder.string());
 }
 
+TetMesh LoadMesh(const Arguments& arguments, std::vector<std::string>* warnings) {
+#ifdef OCTUPOLE_WITH_GMSH
+  if (arguments.size) return MeshCadModel(arguments.mesh, *arguments.size);
+  if (IsCadModel(arguments.mesh)) {
+    throw std::runtime_error(arguments.mesh.string() + ": a CAD model needs the size of its tets, --size");
+  }
+#else
+  if (arguments.size) {
+    throw std::runtime_error(
+        "--size is for CAD models, which this build does not read: configure it with "
+        "-D OCTUPOLE_WITH_GMSH=ON");
+  }
+#endif
+  return ReadTetMesh(arguments.mesh, warnings);
+}
+
 void PrintSummary(const Arguments& arguments, const nlohmann::ordered_json& report) {
   const auto number = [&](const char* key) { return report[key].get<double>(); };
   const auto& alignment = report["alignment"];
@@ -154,7 +175,7 @@ void RunField(const Arguments& arguments) {
   const InterruptionGuard guard;
   Stopwatch stopwatch;
   std::vector<std::string> warnings;
-  TetMesh mesh = ReadTetMesh(arguments.mesh, &warnings);
+  TetMesh mesh = LoadMesh(arguments, &warnings);
   for (std::string& warning : MeshWarnings(InspectMesh(mesh))) warnings.push_back(std::move(warning));
   const double read_seconds = stopwatch.Lap();
   if (!arguments.quiet) {
@@ -260,9 +281,14 @@ void RunField(const Arguments& arguments) {
 void AddFieldCommand(CLI::App* app) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app->add_subcommand("field", "Compute a frame field on a tet mesh");
-  command->add_option("mesh", arguments->mesh, ".mesh (Medit), .vtk, .vtu, .msh (Gmsh), .node/.ele (TetGen), .ovm (OpenVolumeMesh) or .tet")
+  command
+      ->add_option("mesh", arguments->mesh,
+                   ".mesh (Medit), .vtk, .vtu, .msh (Gmsh), .node/.ele (TetGen), .ovm (OpenVolumeMesh) or .tet")
       ->required()
       ->option_text("MESH");
+  command->add_option("--size", arguments->size, "Of the tets that a CAD model (STEP, IGES, BREP) is meshed with")
+      ->check(CLI::PositiveNumber)
+      ->option_text("H");
   command->add_option("-o,--output", arguments->output, "The field, for ParaView; by default MESH_field.vtu, here")
       ->option_text("F.vtu");
   command->add_option("--report", arguments->report, "All figures as JSON")->option_text("F.json");
