@@ -59,5 +59,19 @@ TYPED_TEST(AlignedFrameTest, TakesZeroAndRefusesWhatIsNotFinite) {
   }
 }
 
+// A small turn away from the aligned frame is undone but for the angle about the axis.
+TEST(AlignFrames, MovesWhatIsAlignedAndNothingElse) {
+  std::mt19937 generator(5);
+  const Eigen::Matrix3d frame = RandomFrame(&generator);
+  const Eigen::Matrix3d tilted = Eigen::AngleAxisd(0.1, frame.col(0)).toRotationMatrix() * frame;
+  const std::vector<Eigen::Matrix3d> aligned =
+      AlignFrames({Alignment(), Alignment::Axis(frame.col(2)), Alignment::Frame(frame)}, {tilted, tilted, tilted});
+  ASSERT_EQ(aligned.size(), 3u);
+  EXPECT_EQ(aligned[0], tilted);
+  EXPECT_LT(FrameDifference<4>(aligned[1], frame), 1e-12);
+  EXPECT_LT(FrameDifference<4>(aligned[2], frame), 1e-12);
+  EXPECT_THROW(AlignFrames({Alignment()}, {}), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace octupole

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "interruption.h"
+#include "octupole/aligned_frame.h"
 #include "octupole/atomic_file.h"
 #include "octupole/field_quality.h"
 #include "octupole/field_solver.h"
@@ -32,6 +33,7 @@
 #ifdef OCTUPOLE_WITH_GMSH
 #include "octupole/cad_mesher.h"
 #endif
+#include "output_folder.h"
 #include "singularity_report.h"
 
 namespace octupole {
@@ -111,13 +113,6 @@ class Progress : public ceres::IterationCallback {
   const InterruptionGuard* guard_;
   bool is_shown_;
 };
-
-// The folders of the files to write must be there before minutes are spent on solving.
-void CheckFolderOf(const std::filesystem::path& file) {
-  const std::filesystem::path folder = file.parent_path();
-  if (folder.empty() || std::filesystem::is_directory(folder)) return;
-  throw std::runtime_error(file.string() + ": there is no folder " + folder.string());
-}
 
 TetMesh LoadMesh(const Arguments& arguments, std::vector<std::string>* warnings) {
 #ifdef OCTUPOLE_WITH_GMSH
@@ -251,6 +246,10 @@ void RunField(const Arguments& arguments) {
       {"energy", field.energy},
       {"energy3", quality.energy3},
       {"energy4", quality.energy4},
+      // Where alignment is soft, of the nearest frames that keep to it: to compare with the others.
+      {"energy4_aligned", arguments.method == FieldMethod::kHuang
+                              ? MeasureField(mesh, AlignFrames(field.alignment.alignments, field.frames)).energy4
+                              : quality.energy4},
       {"boundary_rms_deg", quality.boundary_rms_deg},
       {"boundary_max_deg", quality.boundary_max_deg},
       {"singular_triangles", quality.singular_triangles},

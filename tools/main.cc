@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "compare_command.h"
 #include "field_command.h"
 #include "info_command.h"
 
@@ -11,6 +12,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   octupole::AddFieldCommand(&app);
   octupole::AddInfoCommand(&app);
+  octupole::AddCompareCommand(&app);
   // Commands run as CLI11 callbacks, so whatever they throw comes out of parse().
   try {
     app.parse(argc, argv);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
+#include <string>
 
 #include "octupole/frame.h"
 
@@ -23,6 +24,19 @@ Eigen::Matrix3d NearestAlignedFrame(const Alignment& alignment, const Harmonic<k
   const Eigen::Vector2d x = AlignedSubspace<kDegree>(alignment).basis.transpose() * h;
   const double angle = kDegree == 3 ? std::atan2(-x[1], x[0]) / 2 : std::atan2(x[0], x[1]) / 4;
   return alignment.frame() * Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+}
+
+std::vector<Eigen::Matrix3d> AlignFrames(const std::vector<Alignment>& alignments,
+                                         std::vector<Eigen::Matrix3d> frames) {
+  if (alignments.size() != frames.size()) {
+    throw std::invalid_argument("AlignFrames: " + std::to_string(alignments.size()) + " alignments for " +
+                                std::to_string(frames.size()) + " frames");
+  }
+  for (std::size_t v = 0; v < frames.size(); ++v) {
+    if (alignments[v].kind() == AlignmentKind::kFree) continue;
+    frames[v] = NearestAlignedFrame<4>(alignments[v], HarmonicFromFrame<4>(frames[v]));
+  }
+  return frames;
 }
 
 template Eigen::Matrix3d NearestAlignedFrame<3>(const Alignment&, const Octupole&);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "octupole/alignment.h"
 #include "octupole/harmonics.h"
@@ -13,5 +14,10 @@ namespace octupole {
 /// \throw std::invalid_argument when h is not finite.
 template <int kDegree>
 Eigen::Matrix3d NearestAlignedFrame(const Alignment& alignment, const Harmonic<kDegree>& h);
+
+/// The nearest frames that keep to the alignments, one each, as NearestAlignedFrame<4> of their harmonics: what soft
+/// alignment leaves open, closed. Frames without alignment stay as they are.
+/// \throw std::invalid_argument unless there is one alignment per frame, or when one of these is not a rotation.
+std::vector<Eigen::Matrix3d> AlignFrames(const std::vector<Alignment>& alignments, std::vector<Eigen::Matrix3d> frames);
 
 }  // namespace octupole
