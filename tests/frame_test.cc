@@ -263,5 +263,21 @@ TEST(FrameDifference, IsIsotropicForSmallAnglesInTheRatio2Point4) {
   }
 }
 
+// Turned about an axis of the frame, and about the diagonal of two axes (docs/surfaces.md).
+TEST(FrameDifference, DependsOnTheAxisToFourthOrder) {
+  const double angle = 0.02;
+  const auto turned_about = [&](const Vector3d& axis) {
+    return Matrix3d(Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix());
+  };
+  const auto fourth_order = [&](double difference, double second_order) {
+    return (difference / (second_order * angle * angle) - 1) / (angle * angle);
+  };
+  const Matrix3d frame = Matrix3d::Identity(), along = turned_about({1, 0, 0}), diagonal = turned_about({1, 1, 0});
+  EXPECT_NEAR(fourth_order(FrameDifference<3>(frame, along), 16), -4. / 3, 1e-2);
+  EXPECT_NEAR(fourth_order(FrameDifference<3>(frame, diagonal), 16), -1.65, 1e-2);
+  EXPECT_NEAR(fourth_order(FrameDifference<4>(frame, along), 20. / 3), -4. / 3, 1e-2);
+  EXPECT_NEAR(fourth_order(FrameDifference<4>(frame, diagonal), 20. / 3), -0.90, 1e-2);
+}
+
 }  // namespace
 }  // namespace octupole

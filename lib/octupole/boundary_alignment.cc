@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "octupole/frame.h"
-#include "octupole/mesh_topology.h"
 #include "octupole/surface_corners.h"
 #include "octupole/symmetric_eigen.h"
 
@@ -170,24 +169,26 @@ std::vector<SurfaceCorner> WithEqualWeights(const std::vector<Eigen::Vector3d>& 
 
 }  // namespace
 
-BoundaryAlignment AlignToSurface(const std::vector<Eigen::Vector3d>& points,
-                                 const std::vector<std::array<int, 3>>& triangles,
-                                 const std::vector<std::array<int, 2>>& marked_edges,
-                                 const std::vector<int>& marked_points, double feature_angle_deg) {
+BoundaryAlignment AlignToSurface(const TriangleMesh& surface, double feature_angle_deg, OpenBoundary open_boundary) {
   if (!(feature_angle_deg > 0 && feature_angle_deg < 180)) {
     std::ostringstream message;
     message << "AlignToSurface: the feature angle must lie between 0 and 180 degrees, not " << feature_angle_deg;
     throw std::invalid_argument(message.str());
   }
-  const auto corners_of = SurfaceCorners(points, triangles);
+  const std::vector<Eigen::Vector3d>& points = surface.points;
+  const auto corners_of = SurfaceCorners(points, surface.triangles);
   BoundaryAlignment result;
-  result.has_marked_features = !marked_edges.empty() || !marked_points.empty();
-  const auto feature_edges =
-      result.has_marked_features ? marked_edges : SharpEdges(points, triangles, feature_angle_deg);
-  result.num_feature_edges = feature_edges.size();
-  const auto directions_of = FeatureDirections(points, feature_edges);
+  result.has_marked_features = !surface.feature_edges.empty() || !surface.feature_points.empty();
+  auto edges =
+      result.has_marked_features ? surface.feature_edges : SharpEdges(points, surface.triangles, feature_angle_deg);
+  result.num_feature_edges = edges.size();
+  if (open_boundary == OpenBoundary::kAligned) {
+    const std::vector<std::array<int, 2>> open_edges = OpenEdges(surface);
+    edges.insert(edges.end(), open_edges.begin(), open_edges.end());
+  }
+  const auto directions_of = FeatureDirections(points, edges);
   std::vector<bool> is_marked_point(points.size(), false);
-  for (const int v : marked_points) is_marked_point[v] = true;
+  for (const int v : surface.feature_points) is_marked_point[v] = true;
 
   result.alignments.resize(points.size());
   for (std::size_t v = 0; v < points.size(); ++v) {
@@ -233,8 +234,7 @@ BoundaryAlignment AlignToSurface(const std::vector<Eigen::Vector3d>& points,
 }
 
 BoundaryAlignment AlignToBoundary(const TetMesh& mesh, double feature_angle_deg) {
-  return AlignToSurface(mesh.points, BoundaryTriangles(mesh), mesh.feature_edges, mesh.feature_points,
-                        feature_angle_deg);
+  return AlignToSurface(BoundarySurface(mesh), feature_angle_deg);
 }
 
 }  // namespace octupole

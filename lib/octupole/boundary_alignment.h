@@ -1,12 +1,11 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <array>
 #include <cstddef>
 #include <vector>
 
 #include "octupole/alignment.h"
 #include "octupole/tet_mesh.h"
+#include "octupole/triangle_mesh.h"
 
 namespace octupole {
 
@@ -27,6 +26,9 @@ struct BoundaryAlignment {
   std::size_t num_feature_edges = 0;
 };
 
+/// Whether the edges at which a surface is open align the field.
+enum class OpenBoundary { kAligned, kFree };
+
 /// The alignment that a surface asks of each of its points, by the spectral rule (theory.md, section 4).
 ///
 /// A vertex whose incident triangles all lie within `feature_angle_deg` of each other in normal is smooth. At any
@@ -46,15 +48,15 @@ struct BoundaryAlignment {
 ///  - off the surface the axis along the edges is prescribed, or the frame where they meet as axes of one.
 /// A marked point is never smooth; what is prescribed there follows from its normals and edges.
 ///
-/// \param triangles of either orientation: normals that are opposite are far from each other, though.
-/// \param marked_edges, marked_points valid indices into `points`; see TetMesh::feature_edges.
+/// The edges at which the surface is open, aligned, align the field as marked edges do. They are no feature edges.
+///
+/// Triangles may have either orientation; normals that are opposite are far from each other, though.
+/// \param surface satisfies CheckTriangleMesh(), but may have no triangles.
 /// \throw std::invalid_argument unless 0 < feature_angle_deg < 180.
-BoundaryAlignment AlignToSurface(const std::vector<Eigen::Vector3d>& points,
-                                 const std::vector<std::array<int, 3>>& triangles,
-                                 const std::vector<std::array<int, 2>>& marked_edges,
-                                 const std::vector<int>& marked_points, double feature_angle_deg = 40);
+BoundaryAlignment AlignToSurface(const TriangleMesh& surface, double feature_angle_deg = 40,
+                                 OpenBoundary open_boundary = OpenBoundary::kAligned);
 
-/// The same for the boundary of a tet mesh and the features that it marks.
+/// AlignToSurface of the BoundarySurface.
 BoundaryAlignment AlignToBoundary(const TetMesh& mesh, double feature_angle_deg = 40);
 
 }  // namespace octupole

@@ -9,7 +9,10 @@
 
 namespace octupole {
 
-FieldGraph MakeFieldGraph(const TetMesh& mesh, std::vector<Alignment> alignments) {
+namespace {
+
+template <typename Mesh>
+FieldGraph GraphOfMesh(const Mesh& mesh, std::vector<Alignment> alignments) {
   if (alignments.size() != mesh.points.size()) {
     std::ostringstream message;
     message << "MakeFieldGraph: " << alignments.size() << " alignments for " << mesh.points.size() << " points";
@@ -19,6 +22,16 @@ FieldGraph MakeFieldGraph(const TetMesh& mesh, std::vector<Alignment> alignments
   graph.alignments = std::move(alignments);
   for (const auto& [a, b] : MeshEdges(mesh)) graph.edges.push_back({a, b, 1});
   return graph;
+}
+
+}  // namespace
+
+FieldGraph MakeFieldGraph(const TetMesh& mesh, std::vector<Alignment> alignments) {
+  return GraphOfMesh(mesh, std::move(alignments));
+}
+
+FieldGraph MakeFieldGraph(const TriangleMesh& mesh, std::vector<Alignment> alignments) {
+  return GraphOfMesh(mesh, std::move(alignments));
 }
 
 void CheckFieldGraph(const FieldGraph& graph) {

@@ -6,6 +6,7 @@
 
 #include "octupole/alignment.h"
 #include "octupole/tet_mesh.h"
+#include "octupole/triangle_mesh.h"
 
 namespace octupole {
 
@@ -28,6 +29,9 @@ struct FieldGraph {
 /// The graph of a tet mesh: its vertices and edges in the order of MeshEdges, each edge of weight 1.
 /// \throw std::invalid_argument unless there is one alignment per point.
 FieldGraph MakeFieldGraph(const TetMesh& mesh, std::vector<Alignment> alignments);
+
+/// The graph of a surface, likewise.
+FieldGraph MakeFieldGraph(const TriangleMesh& mesh, std::vector<Alignment> alignments);
 
 /// \throw std::invalid_argument naming the first edge whose ends are out of range or equal, or whose weight is negative
 /// or not finite.

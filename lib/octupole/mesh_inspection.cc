@@ -91,8 +91,7 @@ void InspectNeighbours(const TetMesh& mesh, MeshInspection* result) {
       boundary.push_back(face.vertices);
     }
   });
-  constexpr std::array<std::array<int, 2>, 3> kTriangleEdges = {{{0, 1}, {1, 2}, {0, 2}}};
-  ForEachDistinct(SortedSimplices(boundary, kTriangleEdges, num_points),
+  ForEachDistinct(SortedSimplices(boundary, internal::kTriangleEdges, num_points),
                   [&](const Simplex<2>&, int count) { result->non_manifold_boundary_edges += count != 2; });
 }
 

@@ -8,6 +8,7 @@
 namespace octupole {
 namespace {
 
+using internal::DistinctVertices;
 using internal::ForEachDistinct;
 using internal::kTetEdges;
 using internal::kTetFaces;
@@ -17,16 +18,6 @@ using internal::SortedSimplices;
 double SixfoldVolume(const TetMesh& mesh, const std::array<int, 4>& tet) {
   const Eigen::Vector3d& a = mesh.points[tet[0]];
   return (mesh.points[tet[1]] - a).cross(mesh.points[tet[2]] - a).dot(mesh.points[tet[3]] - a);
-}
-
-template <std::size_t N>
-std::vector<std::array<int, N>> DistinctVertices(const std::vector<Simplex<N>>& sorted) {
-  std::size_t num_distinct = 0;
-  ForEachDistinct(sorted, [&](const Simplex<N>&, int) { ++num_distinct; });
-  std::vector<std::array<int, N>> distinct;
-  distinct.reserve(num_distinct);
-  ForEachDistinct(sorted, [&](const Simplex<N>& simplex, int) { distinct.push_back(simplex.vertices); });
-  return distinct;
 }
 
 /// The face of a tetrahedron with the given ascending vertices, turned outward.

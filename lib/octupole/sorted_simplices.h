@@ -8,7 +8,8 @@
 
 namespace octupole::internal {
 
-/// The corners of a tetrahedron's edges and faces.
+/// The corners of the edges of a triangle, and of the edges and faces of a tetrahedron.
+inline constexpr std::array<std::array<int, 2>, 3> kTriangleEdges = {{{0, 1}, {0, 2}, {1, 2}}};
 inline constexpr std::array<std::array<int, 2>, 6> kTetEdges = {{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 inline constexpr std::array<std::array<int, 3>, 4> kTetFaces = {{{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}}};
 
@@ -69,6 +70,17 @@ void ForEachDistinct(const std::vector<Simplex<N>>& sorted, const Visit& visit) 
     }
     visit(sorted[begin], static_cast<int>(end - begin));
   }
+}
+
+/// The vertices of each distinct simplex of a sorted list.
+template <std::size_t N>
+std::vector<std::array<int, N>> DistinctVertices(const std::vector<Simplex<N>>& sorted) {
+  std::size_t num_distinct = 0;
+  ForEachDistinct(sorted, [&](const Simplex<N>&, int) { ++num_distinct; });
+  std::vector<std::array<int, N>> distinct;
+  distinct.reserve(num_distinct);
+  ForEachDistinct(sorted, [&](const Simplex<N>& simplex, int) { distinct.push_back(simplex.vertices); });
+  return distinct;
 }
 
 }  // namespace octupole::internal

@@ -67,17 +67,24 @@ FieldSolution<kDegree> SolveWithoutCeres(const FieldGraph& graph, const FieldOpt
   return SolveFast<kDegree>(graph, options.weights, minimizer);
 }
 
-}  // namespace
+BoundaryAlignment Align(const TetMesh& mesh, double feature_angle_deg, OpenBoundary /*open_boundary*/) {
+  CheckTetMesh(mesh);
+  return AlignToBoundary(mesh, feature_angle_deg);
+}
 
-template <int kDegree>
-Field<kDegree> SolveField(const TetMesh& mesh, const FieldOptions<kDegree>& options) {
+BoundaryAlignment Align(const TriangleMesh& surface, double feature_angle_deg, OpenBoundary open_boundary) {
+  CheckTriangleMesh(surface);
+  return AlignToSurface(surface, feature_angle_deg, open_boundary);
+}
+
+template <int kDegree, typename Mesh>
+Field<kDegree> SolveOnMesh(const Mesh& mesh, const FieldOptions<kDegree>& options) {
   if (options.method != FieldMethod::kPenalty && (options.solver || !options.start.empty())) {
     throw std::invalid_argument("SolveField: only the penalty method takes a start or a solver");
   }
   const auto start = std::chrono::steady_clock::now();
-  CheckTetMesh(mesh);
   Field<kDegree> field;
-  field.alignment = AlignToBoundary(mesh, options.feature_angle_deg);
+  field.alignment = Align(mesh, options.feature_angle_deg, options.open_boundary);
   const FieldGraph graph = MakeFieldGraph(mesh, field.alignment.alignments);
   field.setup_seconds = SecondsSince(start);
   if (options.solver) {
@@ -90,7 +97,21 @@ Field<kDegree> SolveField(const TetMesh& mesh, const FieldOptions<kDegree>& opti
   return field;
 }
 
+}  // namespace
+
+template <int kDegree>
+Field<kDegree> SolveField(const TetMesh& mesh, const FieldOptions<kDegree>& options) {
+  return SolveOnMesh(mesh, options);
+}
+
+template <int kDegree>
+Field<kDegree> SolveField(const TriangleMesh& surface, const FieldOptions<kDegree>& options) {
+  return SolveOnMesh(surface, options);
+}
+
 template Field<3> SolveField<3>(const TetMesh&, const FieldOptions<3>&);
 template Field<4> SolveField<4>(const TetMesh&, const FieldOptions<4>&);
+template Field<3> SolveField<3>(const TriangleMesh&, const FieldOptions<3>&);
+template Field<4> SolveField<4>(const TriangleMesh&, const FieldOptions<4>&);
 
 }  // namespace octupole

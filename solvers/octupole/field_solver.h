@@ -11,6 +11,7 @@
 #include "octupole/field_solution.h"
 #include "octupole/harmonics.h"
 #include "octupole/tet_mesh.h"
+#include "octupole/triangle_mesh.h"
 
 namespace octupole {
 
@@ -32,8 +33,9 @@ enum class FieldMethod {
 template <int kDegree>
 struct FieldOptions {
   FieldMethod method = FieldMethod::kPenalty;
-  /// See AlignToBoundary.
+  /// See AlignToSurface; of a tet mesh no boundary is open.
   double feature_angle_deg = 40;
+  OpenBoundary open_boundary = OpenBoundary::kAligned;
   /// Seed of the random starts, which are used when `start` is empty.
   std::uint32_t seed = 0;
   /// How our own methods minimise; the seed is that above.
@@ -69,5 +71,11 @@ struct Field : FieldSolution<kDegree> {
 /// start or solver is given to a method that takes none.
 template <int kDegree>
 Field<kDegree> SolveField(const TetMesh& mesh, const FieldOptions<kDegree>& options = {});
+
+/// The same on a surface, by AlignToSurface: frames with the surface's normal as one axis, so a cross field (see
+/// CrossField). The smoothness of frames in space is extrinsic: the field bends with the surface.
+/// \throw std::invalid_argument likewise (see CheckTriangleMesh).
+template <int kDegree>
+Field<kDegree> SolveField(const TriangleMesh& surface, const FieldOptions<kDegree>& options = {});
 
 }  // namespace octupole

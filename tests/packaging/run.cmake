@@ -48,19 +48,28 @@ foreach(package_file IN LISTS package_files)
     endif()
   endforeach()
 endforeach()
-consume(find_package -D CMAKE_PREFIX_PATH=${WORK_DIR}/prefix)
+consume(find_package -D CMAKE_PREFIX_PATH=${WORK_DIR}/prefix -D CMAKE_DISABLE_FIND_PACKAGE_OpenMesh=ON)
 foreach(component core cost_functions solvers)
   run(${configure} -B ${WORK_DIR}/only_${component} -D CMAKE_PREFIX_PATH=${WORK_DIR}/prefix -D COMPONENTS=${component})
 endforeach()
 consume(core_without_ceres -D CMAKE_PREFIX_PATH=${WORK_DIR}/prefix -D COMPONENTS=core
         -D CMAKE_DISABLE_FIND_PACKAGE_Ceres=ON)
+if(WITH_OPENMESH)
+  consume(openmesh_without_ceres -D CMAKE_PREFIX_PATH=${WORK_DIR}/prefix -D COMPONENTS=openmesh
+          -D CMAKE_DISABLE_FIND_PACKAGE_Ceres=ON)
+endif()
 run(FAILS "octupole has no component \"surfaces\"" ${configure} -B ${WORK_DIR}/unknown_component
     -D CMAKE_PREFIX_PATH=${WORK_DIR}/prefix "-D COMPONENTS=core;surfaces")
 
 # The sources as a part of another project: the libraries and nothing else.
 # Built is only what one component needs, as the installed libraries were built already; configured are all.
 consume(add_subdirectory -D OCTUPOLE_SOURCE_DIR=${SOURCE_DIR} -D COMPONENTS=cost_functions)
-run(${configure} -B ${WORK_DIR}/add_subdirectory_all -D OCTUPOLE_SOURCE_DIR=${SOURCE_DIR})
+run(${configure} -B ${WORK_DIR}/add_subdirectory_all -D OCTUPOLE_SOURCE_DIR=${SOURCE_DIR}
+    -D CMAKE_DISABLE_FIND_PACKAGE_OpenMesh=ON)
+if(WITH_OPENMESH)
+  run(${configure} -B ${WORK_DIR}/add_subdirectory_openmesh -D OCTUPOLE_SOURCE_DIR=${SOURCE_DIR}
+      -D OCTUPOLE_WITH_OPENMESH=ON -D COMPONENTS=openmesh)
+endif()
 foreach(folder tools tests examples benchmarks)
   if(EXISTS ${WORK_DIR}/add_subdirectory/octupole/${folder})
     message(FATAL_ERROR "add_subdirectory builds ${folder} too")
