@@ -72,7 +72,7 @@ TEST(CompareCommand, RunsAllMethodsThatDoNotTakeMinutes) {
 // The same figures as the command that it runs gives.
 TEST(CompareCommand, SaysWhatTheFieldCommandSays) {
   const TemporaryFolder folder;
-  const std::string options = Bracket() + " --max-iterations 30 --seed 3 --threads 2";
+  const std::string options = Bracket() + " --max-iterations 30 --seed 3 --threads 2 --feature-angle 20";
   ASSERT_EQ(Shell(OCTUPOLE_COMMAND " field " + options + " --quiet --method huang --output " +
                   Quoted(folder / "field.vtu") + " --report " + Quoted(folder / "report.json"))
                 .exit_code,

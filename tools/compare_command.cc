@@ -95,6 +95,7 @@ struct Arguments {
   std::vector<path> meshes;
   std::vector<std::string> methods;
   int repeat = 1;
+  std::optional<double> feature_angle;
   std::uint32_t seed = 0;
   int threads = 1;
   std::optional<int> max_iterations;
@@ -137,6 +138,9 @@ class Runner {
                                         "--seed",    std::to_string(arguments_.seed),
                                         "--threads", std::to_string(arguments_.threads)};
     options.insert(options.end(), configuration.options.begin(), configuration.options.end());
+    if (arguments_.feature_angle) {
+      options.insert(options.end(), {"--feature-angle", std::to_string(*arguments_.feature_angle)});
+    }
     if (max_iterations) {
       options.insert(options.end(), {"--max-iterations", std::to_string(*max_iterations)});
     }
@@ -204,8 +208,10 @@ Json Ratios(const Json& rows) {
     if (octupole == nullptr || degree4 == nullptr) continue;
     Json ratio = {{"method", std::string("octupole/degree4-") + solver}};
     for (const char* column : kRatios) {
+      // An energy below this is that of a constant field, and rounding.
+      constexpr double kZero = 1e-3;
       const double divisor = (*degree4)[column].get<double>();
-      if (divisor != 0) ratio[column] = (*octupole)[column].get<double>() / divisor;
+      if (divisor > kZero) ratio[column] = (*octupole)[column].get<double>() / divisor;
     }
     ratios.push_back(ratio);
   }
@@ -429,6 +435,9 @@ void AddCompareCommand(CLI::App* app) {
   command->add_option("--repeat", arguments->repeat, "Run all methods in turn so often, and give medians")
       ->check(CLI::Range(1, 1000))
       ->option_text("N [1]");
+  command->add_option("--feature-angle", arguments->feature_angle, "As for field")
+      ->check(CLI::Range(1., 179.))
+      ->option_text("DEG");
   command->add_option("--seed", arguments->seed, "Of the random starts")->option_text("N [0]");
   command->add_option("--threads", arguments->threads, "For each run")
       ->check(CLI::Range(1, 1024))

@@ -17,10 +17,9 @@ namespace octupole {
 
 /// How a field is found. All but the first are the classics of degree 4, to compare with; their headers cite them.
 enum class FieldMethod {
-  /// The penalised energy of BuildFieldProblem: in degree 3 that of the octupoles, in degree 4 with the implicit
-  /// equations of Yu. Nesterenko, *On spherical harmonics possessing octahedral symmetry*, arXiv 2012.12614 (2020). By
-  /// SolveFast or
-  /// by Ceres.
+  /// The penalised energy of BuildFieldProblem, by SolveFast or by Ceres: of octupoles in degree 3; in degree 4 it is
+  /// the counterpart with the implicit equations of octahedral harmonics as penalty (Yu. Nesterenko, *On spherical
+  /// harmonics possessing octahedral symmetry*, arXiv 2012.12614, 2020).
   kPenalty,
   /// ray_sokolov.h
   kRaySokolov,
