@@ -199,12 +199,11 @@ TEST(AlignToBoundary, PrefersMarksToTheAngle) {
   const Alignment marked = AlignToBoundary(mesh).alignments[edge];
   ASSERT_EQ(marked.kind(), AlignmentKind::kFrame);
   EXPECT_LT(WorstAngle(marked.frame(), Vector3d::UnitZ() * Eigen::RowVector3d::Ones()), 1e-7);
-  // A marked point says that there is a corner, not where its edges go.
+  // A point has no direction.
   mesh.feature_edges.clear();
   mesh.feature_points = {edge};
   const BoundaryAlignment with_point = AlignToBoundary(mesh);
-  EXPECT_TRUE(with_point.has_marked_features);
-  EXPECT_EQ(with_point.num_feature_edges, 0u);
+  EXPECT_FALSE(with_point.has_marked_features);
   EXPECT_EQ(with_point.alignments[edge].kind(), AlignmentKind::kAxis);
 }
 

@@ -280,15 +280,16 @@ TEST_F(FieldCommandCorpus, SatisfiesTheJudgeOnEveryTetMesh) {
   int num_meshes = 0;
   for (const Row& row : ReadManifest(folder_ / "tet/manifest.tsv")) {
     const std::filesystem::path mesh = folder_ / "tet" / row.at("name");
-    if (const auto e = mesh.extension(); e != ".mesh" && e != ".vtk" && e != ".msh") continue;
     SCOPED_TRACE(mesh);
     ++num_meshes;
     const TemporaryFolder folder;
     const Outcome outcome = RunField(Quoted(mesh) + " --max-iterations 30 --threads 2 --output " +
                                      Quoted(folder / "field.vtu") + " --report " + Quoted(folder / "report.json"));
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    // meshio reads neither of these, so there the judge has no input to compare with.
+    const bool is_read_by_judge = mesh.extension() != ".ovm" && mesh.extension() != ".tet";
     const Outcome judged = Shell("/usr/bin/python3 " + Quoted(folder_ / "../tools/judge.py") + " " +
-                                 Quoted(folder / "field.vtu") + " " + Quoted(mesh));
+                                 Quoted(folder / "field.vtu") + (is_read_by_judge ? " " + Quoted(mesh) : ""));
     ASSERT_EQ(judged.exit_code, 0) << judged.err;
     const json report = ReadReport(folder / "report.json"), judge = json::parse(judged.out);
     EXPECT_LT(judge["orthonormality"], 1e-9);
@@ -300,7 +301,7 @@ TEST_F(FieldCommandCorpus, SatisfiesTheJudgeOnEveryTetMesh) {
       EXPECT_TRUE(Agree(report[key], judge[key])) << key << ": " << report[key] << " against " << judge[key];
     }
   }
-  EXPECT_GE(num_meshes, 8);
+  EXPECT_EQ(num_meshes, 12);
 }
 
 }  // namespace

@@ -178,7 +178,7 @@ BoundaryAlignment AlignToSurface(const TriangleMesh& surface, double feature_ang
   const std::vector<Eigen::Vector3d>& points = surface.points;
   const auto corners_of = SurfaceCorners(points, surface.triangles);
   BoundaryAlignment result;
-  result.has_marked_features = !surface.feature_edges.empty() || !surface.feature_points.empty();
+  result.has_marked_features = !surface.feature_edges.empty();
   auto edges =
       result.has_marked_features ? surface.feature_edges : SharpEdges(points, surface.triangles, feature_angle_deg);
   result.num_feature_edges = edges.size();
@@ -187,8 +187,6 @@ BoundaryAlignment AlignToSurface(const TriangleMesh& surface, double feature_ang
     edges.insert(edges.end(), open_edges.begin(), open_edges.end());
   }
   const auto directions_of = FeatureDirections(points, edges);
-  std::vector<bool> is_marked_point(points.size(), false);
-  for (const int v : surface.feature_points) is_marked_point[v] = true;
 
   result.alignments.resize(points.size());
   for (std::size_t v = 0; v < points.size(); ++v) {
@@ -211,7 +209,7 @@ BoundaryAlignment AlignToSurface(const TriangleMesh& surface, double feature_ang
     }
     const std::vector<SurfaceCorner> corners = WithNormal(corners_of[v]);
     const Eigen::Vector3d mean_normal = MeanNormal(corners);
-    const bool is_smooth = !is_marked_point[v] && NormalsAgree(corners, feature_angle_deg) && !mean_normal.isZero(0);
+    const bool is_smooth = NormalsAgree(corners, feature_angle_deg) && !mean_normal.isZero(0);
     CommonAlignment common;
     if (is_smooth) {
       if (!directions.empty()) common.frame = FindFrameAbout(mean_normal, directions);

@@ -41,12 +41,12 @@ enum class OpenBoundary { kAligned, kFree };
 ///  - neither: the tangent if there is one, else nothing.
 /// Normals are unsigned here, and triangles of zero area have none.
 ///
-/// Feature edges are the marked ones, if any edge or point is marked; otherwise those with an angle between the normals
-/// above `feature_angle_deg`. A marked edge aligns the field even where the surface is smooth, and off the surface:
+/// Feature edges are the marked ones, if any edge is marked; otherwise those with an angle between the normals above
+/// `feature_angle_deg`. A marked edge aligns the field even where the surface is smooth, and off the surface:
 ///  - at a smooth vertex the frame is prescribed by the normal and the marked edges' common direction up to quarter
 ///    turns; where they have none, as when two curves cross at 45 degrees, the normal alone is;
 ///  - off the surface the axis along the edges is prescribed, or the frame where they meet as axes of one.
-/// A marked point is never smooth; what is prescribed there follows from its normals and edges.
+/// Marked points prescribe nothing: a point has no direction.
 ///
 /// The edges at which the surface is open, aligned, align the field as marked edges do. They are no feature edges.
 ///

@@ -14,8 +14,8 @@ struct TetMesh {
   std::vector<std::array<int, 4>> tets;
   /// One region tag per tetrahedron, or empty when the mesh has none.
   std::vector<int> regions;
-  /// Edges of the mesh, as pairs of vertices, and points at which the file or the caller asks the field to be aligned:
-  /// creases, curves of the CAD model, corners. Empty when nothing is marked.
+  /// Edges of the mesh, as pairs of vertices, to which the file or the caller asks the field to be aligned: creases,
+  /// curves of the CAD model; and points that are marked as their corners. Empty when nothing is marked.
   std::vector<std::array<int, 2>> feature_edges = {};
   std::vector<int> feature_points = {};
 };
