@@ -206,9 +206,10 @@ void RunField(const Arguments& arguments) {
     throw std::runtime_error(arguments.mesh.string() + ": the solver failed: " +
                              (field.ceres_summary ? field.ceres_summary->message : "the energy is not finite"));
   }
-  const FieldQuality quality = MeasureField(mesh, field.frames);
-  const SingularCurves curves = TraceSingularCurves(mesh, field.frames, FindSingularTriangles(mesh, field.frames));
   const auto boundary = BoundaryTriangles(mesh);
+  const auto singular_triangles = FindSingularTriangles(mesh, field.frames);
+  const FieldQuality quality = MeasureField(mesh, field.frames, singular_triangles, boundary);
+  const SingularCurves curves = TraceSingularCurves(mesh, field.frames, singular_triangles);
   const SurfaceSingularities surface = FindSurfaceSingularities(mesh.points, boundary, field.frames);
 
   stopwatch.Lap();

@@ -8,7 +8,6 @@
 
 #include "octupole/frame.h"
 #include "octupole/mesh_topology.h"
-#include "octupole/singular_triangles.h"
 #include "octupole/surface_corners.h"
 
 namespace octupole {
@@ -16,8 +15,9 @@ namespace {
 
 constexpr double kSmoothAngleDeg = 35;
 
-void MeasureBoundary(const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& frames, FieldQuality* quality) {
-  const auto corners_of = SurfaceCorners(mesh.points, BoundaryTriangles(mesh));
+void MeasureBoundary(const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& frames,
+                     const std::vector<std::array<int, 3>>& triangles, FieldQuality* quality) {
+  const auto corners_of = SurfaceCorners(mesh.points, triangles);
   double sum_of_squares = 0;
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
     if (corners_of[v].empty() || !NormalsAgree(corners_of[v], kSmoothAngleDeg)) continue;
@@ -37,25 +37,35 @@ void MeasureBoundary(const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& fr
   }
 }
 
+void CheckFrames(const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& frames) {
+  if (frames.size() == mesh.points.size()) return;
+  std::ostringstream message;
+  message << "MeasureField: " << frames.size() << " frames for " << mesh.points.size() << " points";
+  throw std::invalid_argument(message.str());
+}
+
 }  // namespace
 
 FieldQuality MeasureField(const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& frames) {
-  if (frames.size() != mesh.points.size()) {
-    std::ostringstream message;
-    message << "MeasureField: " << frames.size() << " frames for " << mesh.points.size() << " points";
-    throw std::invalid_argument(message.str());
-  }
+  CheckFrames(mesh, frames);
+  return MeasureField(mesh, frames, FindSingularTriangles(mesh, frames), BoundaryTriangles(mesh));
+}
+
+FieldQuality MeasureField(const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& frames,
+                          const std::vector<SingularTriangle>& singular_triangles,
+                          const std::vector<std::array<int, 3>>& boundary_triangles) {
+  CheckFrames(mesh, frames);
   FieldQuality quality;
   for (const auto& [a, b] : MeshEdges(mesh)) {
     ++quality.edges;
     quality.energy3 += FrameDifference<3>(frames[a], frames[b]);
     quality.energy4 += FrameDifference<4>(frames[a], frames[b]);
   }
-  for (const SingularTriangle& triangle : FindSingularTriangles(mesh, frames)) {
+  for (const SingularTriangle& triangle : singular_triangles) {
     ++quality.singular_triangles;
     ++quality.singular_triangles_of_type[static_cast<std::size_t>(triangle.type)];
   }
-  MeasureBoundary(mesh, frames, &quality);
+  MeasureBoundary(mesh, frames, boundary_triangles, &quality);
   return quality;
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "octupole/singular_triangles.h"
 #include "octupole/tet_mesh.h"
 
 namespace octupole {
@@ -30,5 +31,10 @@ struct FieldQuality {
 /// \param frames one rotation per point, its columns the axes.
 /// \throw std::invalid_argument unless there is one frame per point.
 FieldQuality MeasureField(const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& frames);
+
+/// The same for a caller who has the singular triangles (FindSingularTriangles) and BoundaryTriangles already.
+FieldQuality MeasureField(const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& frames,
+                          const std::vector<SingularTriangle>& singular_triangles,
+                          const std::vector<std::array<int, 3>>& boundary_triangles);
 
 }  // namespace octupole
