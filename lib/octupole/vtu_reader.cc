@@ -64,19 +64,35 @@ class ByteSource {
       return bytes;
     }
     decoded_.erase(0, num_taken_);
-    if (count > decoded_.size()) {
-      decoded_.reserve(std::min(count, decoded_.size() + text_.size()) + 3);
-      while (decoded_.size() < count && DecodeDigits()) {
-      }
+    while (decoded_.size() < count && (DecodeFullGroups((count - decoded_.size()) / 3) || DecodeGroup())) {
     }
     num_taken_ = std::min(count, decoded_.size());
     return {decoded_.data(), num_taken_};
   }
 
  private:
-  /// Decodes four digits; false if there are no more.
-  bool DecodeDigits() {
-    static constexpr std::array<signed char, 256> kValues = MakeBase64Values();
+  static constexpr std::array<signed char, 256> kValues = MakeBase64Values();
+
+  /// Decodes groups of four digits as long as nothing stands between them, at most so many; false if there are none.
+  bool DecodeFullGroups(std::size_t max_count) {
+    std::array<char, 3 * 1024> bytes;
+    char* next = bytes.data();
+    for (max_count = std::min({max_count, text_.size() / 4, bytes.size() / 3}); max_count > 0; --max_count) {
+      const auto value = [&](int i) -> int { return kValues[static_cast<unsigned char>(text_[i])]; };
+      if ((value(0) | value(1) | value(2) | value(3)) < 0) {
+        break;
+      }
+      *next++ = static_cast<char>(value(0) << 2 | value(1) >> 4);
+      *next++ = static_cast<char>(value(1) << 4 | value(2) >> 2);
+      *next++ = static_cast<char>(value(2) << 6 | value(3));
+      text_.remove_prefix(4);
+    }
+    decoded_.append(bytes.data(), next);
+    return next != bytes.data();
+  }
+
+  /// Decodes four digits that may have white space between them and padding at the end; false if there are no more.
+  bool DecodeGroup() {
     std::uint32_t bits = 0;
     int num_digits = 0;
     int num_padding = 0;
