@@ -87,6 +87,10 @@ TEST_F(BinaryGmsh, Errors) {
   std::string version_2 = GmshFile(MakeBoxMesh({1, 1, 1}, {1, 1, 1}), false, Encoding::kLittleEndian);
   version_2[version_2.find("$Elements\n6\n") + 12] = 99;  // the type
   EXPECT_EQ(Error("a.msh", version_2), "a.msh:byte 320: elements of type 99 are not known");
+  // Found by fuzzing: the number of tags less one overflowed.
+  std::string tags = GmshFile(MakeTet(), false, Encoding::kLittleEndian);
+  tags.replace(tags.find("$Elements\n1\n") + 20, 4, std::string("\0\0\0\x80", 4));
+  EXPECT_EQ(Error("a.msh", tags), "a.msh:byte 196: -2147483648 as a number of tags");
 }
 
 using BinaryVtk = CutOff;

@@ -406,6 +406,7 @@ TEST_F(MeshIo, GmshErrors) {
   EXPECT_EQ(error2("5\n1 0", "4\n1 0"), "a.msh:14: '5' where $EndNodes was expected");
   EXPECT_EQ(error2("20 1 0 0", "1 1 0 0"), "a.msh:11: a second node with the number 1");
   EXPECT_EQ(error2("2.5", "x"), "a.msh:12: 'x' where a coordinate was expected");
+  EXPECT_EQ(error2("4 4 0 5", "4 4 -1 5"), "a.msh:21: -1 as a number of tags");
   EXPECT_EQ(error2("5 3 20 1\n", "5 3 21 1\n"), "a.msh:21: node 21 is not among the 5 nodes read");
   EXPECT_EQ(error2("5 3 20 1\n", "5 3 20 5\n"), "a.msh:21: a tetrahedron has vertex 5 twice");
   EXPECT_EQ(error2(" 3 4000000000\n", " 3\n"), "a.msh:20: a tetrahedron has vertex 3 twice");

@@ -304,13 +304,20 @@ class GmshReader {
     }
   }
 
+  int CheckNumTags(int num_tags) const {
+    if (num_tags < 0) {
+      tokens_.Fail(std::to_string(num_tags) + " as a number of tags");
+    }
+    return num_tags;
+  }
+
   void ReadElements2() {
     const int num_elements = tokens_.NextCount("elements", 4);
     for (int i = 0; i < num_elements; ++i) {
       tokens_.NextInteger("an element number");
       const int line = tokens_.line();
       const int type = tokens_.NextInt("an element type");
-      const std::int64_t num_tags = tokens_.NextInteger("a number of tags");
+      const int num_tags = CheckNumTags(tokens_.NextInt("a number of tags"));
       int region = 0;
       if (num_tags > 0) {
         region = tokens_.NextInt("a region tag");
@@ -326,7 +333,7 @@ class GmshReader {
     for (int i = 0; i < num_elements;) {
       const int type = NextInt("an element type");
       const int size = tokens_.CheckCount(NextInt("a number of elements"), "elements of a block", 8);
-      const int num_tags = NextInt("a number of tags");
+      const int num_tags = CheckNumTags(NextInt("a number of tags"));
       if (size < 1 || size > num_elements - i) {
         tokens_.Fail("a block of " + std::to_string(size) + " elements does not fit the " +
                      std::to_string(num_elements) + " announced");
@@ -334,7 +341,7 @@ class GmshReader {
       for (int end = i + size; i < end; ++i) {
         NextInt("an element number");
         const int region = num_tags > 0 ? NextInt("a region tag") : 0;
-        Skip(std::max(0, num_tags - 1), 4);
+        Skip(num_tags > 0 ? num_tags - 1 : 0, 4);
         ReadElement(KnownType(type), region);
       }
     }
