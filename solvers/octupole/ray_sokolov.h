@@ -17,8 +17,9 @@ namespace octupole {
 /// instead of by large weights; the projection is global instead of a descent from a guess; rotations are Cayley's
 /// instead of Euler's angles; smoothing L-BFGS is ours. The size is that of the linear system.
 ///
-/// Any graph will do. Without any alignment the linear start is constant, the mean of a random field. The result does
-/// not depend on the number of threads, and on the seed only then.
+/// Any graph will do. Without any alignment the linear start is constant, the mean of a random field; with alignments
+/// the seed only starts the least squares, and shows as far as these are not solved to the last digit. The result does
+/// not depend on the number of threads.
 ///
 /// \throw std::invalid_argument when the graph is malformed (see CheckFieldGraph) or num_threads is below 1.
 FrameSolution SolveRaySokolov(const FieldGraph& graph, const MinimizerOptions& options = {});
