@@ -116,6 +116,7 @@ TEST_F(MeshIo, MeditErrors) {
   EXPECT_EQ(error("5\n0 0", "4\n0 0"), "a.mesh:9: more vertices than announced");
   EXPECT_EQ(error("5\n0 0", "6\n0 0"), "a.mesh:10: 'Triangles' where a coordinate was expected");
   EXPECT_EQ(error("2.5", "2,5"), "a.mesh:7: '2,5' where a coordinate was expected");
+  EXPECT_EQ(error("2.5", "+-2.5"), "a.mesh:7: '+-2.5' where a coordinate was expected");
   EXPECT_EQ(error("2.5", "nan"), "a.mesh:7: nan where a finite number was expected for a coordinate");
   EXPECT_EQ(error("2.5", "-inf"), "a.mesh:7: -inf where a finite number was expected for a coordinate");
   EXPECT_EQ(error("2.5", "2e999"), "a.mesh:7: '2e999' where a coordinate was expected");
@@ -659,6 +660,7 @@ TEST_F(MeshIo, MessagesQuoteDamagedTextSafely) {
 
 TEST_F(MeshIo, NumbersBelowTheSmallestDoubleAreZero) {
   EXPECT_EQ(Read("a.mesh", Replaced(kMedit, "-1e-3", "-1e-999")).points[4].z(), 0.0);
+  EXPECT_EQ(Read("a.mesh", Replaced(kMedit, "-1e-3", "+1e-999")).points[4].z(), 0.0);
   EXPECT_EQ(Read("a.mesh", Replaced(kMedit, "-1e-3", "4.9e-324")).points[4].z(), 4.9e-324);
 }
 

@@ -138,10 +138,10 @@ std::vector<bool> FindInMesh(const TetMesh& mesh, const std::vector<std::array<i
   for (const std::array<int, 4>& tet : mesh.tets) {
     for (const auto& [i, j] : internal::kTetEdges) {
       const auto [a, b] = std::minmax(tet[i], tet[j]);
-      for (std::size_t e = begin[a]; e < begin[a + 1]; ++e) {
-        if (edges[e][1] == b) {
-          is_found[e] = true;
-        }
+      const auto last = edges.begin() + static_cast<std::ptrdiff_t>(begin[a + 1]);
+      const auto edge = std::lower_bound(edges.begin() + static_cast<std::ptrdiff_t>(begin[a]), last, std::array{a, b});
+      if (edge != last && (*edge)[1] == b) {
+        is_found[edge - edges.begin()] = true;
       }
     }
   }

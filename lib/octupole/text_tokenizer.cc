@@ -19,6 +19,7 @@ bool IsSpace(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 /// as one beyond the largest.
 bool IsCloseToZero(std::string_view word) {
   double value = 0.0;
+  word.remove_prefix(word.front() == '+');
   const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   return error == std::errc::result_out_of_range && stop == word.data() + word.size() &&
          (word.find("e-") != word.npos || word.find("E-") != word.npos);
@@ -104,7 +105,7 @@ template <typename Number>
 bool TextTokenizer::Parse(Number* value) {
   FindWord();
   // from_chars does not know the plus sign that Fortran programs write.
-  const char* begin = *next_ == '+' ? next_ + 1 : next_;
+  const char* begin = *next_ == '+' && next_ + 1 != end_ && next_[1] != '-' ? next_ + 1 : next_;
   const auto [stop, error] = std::from_chars(begin, end_, *value);
   if (error != std::errc() || !IsWordEnd(stop)) {
     return false;

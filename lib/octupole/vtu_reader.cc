@@ -137,6 +137,7 @@ class VtuReader {
       appended_ = file.text.substr(begin);
       xml_ += "</VTKFile>";
     }
+    last_position_ = xml_.data();
   }
 
   ParsedMesh Read() {
@@ -168,7 +169,14 @@ class VtuReader {
     return LineAt(xml_.data() + std::max<std::ptrdiff_t>(0, node.offset_debug()));
   }
 
-  int LineAt(const char* position) const { return 1 + static_cast<int>(std::count(xml_.data(), position, '\n')); }
+  /// Counts on from the line that was asked for last, so that files of many pieces take no time.
+  int LineAt(const char* position) const {
+    last_line_ +=
+        static_cast<int>(std::count(std::min(last_position_, position), std::max(last_position_, position), '\n') *
+                         (position < last_position_ ? -1 : 1));
+    last_position_ = position;
+    return last_line_;
+  }
 
   pugi::xml_node Child(const pugi::xml_node& node, const char* name) const {
     const pugi::xml_node child = node.child(name);
@@ -398,6 +406,8 @@ class VtuReader {
 
   std::string path_;
   std::string xml_;
+  mutable const char* last_position_ = nullptr;
+  mutable int last_line_ = 1;
   std::string_view appended_;
   bool appended_is_base64_ = false;
   bool swap_ = false;
