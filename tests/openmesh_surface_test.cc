@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <OpenMesh/Core/IO/MeshIO.hh>
+// MeshIO.hh has to come before the meshes.
 #include <OpenMesh/Core/Geometry/EigenVectorT.hh>
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
@@ -12,6 +14,7 @@
 
 #include "corpus.h"
 #include "octupole/box_mesh.h"
+#include "octupole/field_solver.h"
 #include "octupole/mesh_io.h"
 #include "octupole/mesh_topology.h"
 #include "octupole/surface_corners.h"
@@ -172,6 +175,41 @@ TEST_F(OpenMeshCorpus, HasEveryTriangleOfBoundariesThatAreNoManifolds) {
     EXPECT_EQ(boundary.mesh.n_faces(), surface.triangles.size()) << name;
     EXPECT_EQ(boundary.num_copies == 0, std::string(name) == "good_small.mesh") << name;
   }
+}
+
+// At vertices in the middle of a crease, where it has two edges on about one line, an axis runs along it.
+TEST_F(OpenMeshCorpus, CreasesOfTheFandiskCarryTheField) {
+  DoublePolyMesh mesh;
+  mesh.request_face_normals();
+  ASSERT_TRUE(OpenMesh::IO::read_mesh(mesh, (folder_ / "surface/fandisk.obj").string()));
+  mesh.update_face_normals();
+  mesh.request_edge_status();
+  mesh.find_feature_edges(OpenMesh::deg_to_rad(40.0));
+  const TriangleMesh surface = TriangleMeshFromOpenMesh(mesh);
+  const Field<3> field = SolveField<3>(surface);
+  EXPECT_TRUE(field.alignment.has_marked_features);
+
+  std::vector<std::vector<Vector3d>> directions(surface.points.size());
+  for (const auto& [a, b] : surface.feature_edges) {
+    const Vector3d direction = (surface.points[b] - surface.points[a]).normalized();
+    directions[a].push_back(direction);
+    directions[b].push_back(-direction);
+  }
+  std::vector<double> angles;
+  for (std::size_t v = 0; v < directions.size(); ++v) {
+    if (directions[v].size() != 2 || directions[v][0].dot(directions[v][1]) > -std::cos(0.1)) continue;
+    const Vector3d tangent = (directions[v][0] - directions[v][1]).normalized();
+    const double cosine = (field.frames[v].transpose() * tangent).cwiseAbs().maxCoeff();
+    angles.push_back(std::acos(std::min(1., cosine)) * 180 / EIGEN_PI);
+  }
+  EXPECT_GT(angles.size(), 500u);
+  std::sort(angles.begin(), angles.end());
+  RecordProperty("crease_vertices", static_cast<int>(angles.size()));
+  RecordProperty("median_deg", std::to_string(angles[angles.size() / 2]));
+  RecordProperty("p95_deg", std::to_string(angles[angles.size() * 95 / 100]));
+  RecordProperty("largest_deg", std::to_string(angles.back()));
+  EXPECT_LT(angles[angles.size() / 2], 1);
+  EXPECT_LT(angles[angles.size() * 95 / 100], 5);
 }
 
 }  // namespace

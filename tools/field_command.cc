@@ -1,10 +1,5 @@
 #include "field_command.h"
 
-#include <ceres/iteration_callback.h>
-#include <unistd.h>
-
-#include <chrono>
-#include <cstdint>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
@@ -27,7 +22,6 @@
 #include "octupole/mesh_topology.h"
 #include "octupole/singular_curves.h"
 #include "octupole/singularity_writer.h"
-#include "octupole/solver_presets.h"
 #include "octupole/surface_singularities.h"
 #include "octupole/tet_frames.h"
 #ifdef OCTUPOLE_WITH_GMSH
@@ -35,13 +29,10 @@
 #endif
 #include "output_folder.h"
 #include "singularity_report.h"
+#include "solver_arguments.h"
 
 namespace octupole {
 namespace {
-
-const std::map<std::string, SolverPreset> kSolverOfName = {{"cholesky", SolverPreset::kSparseCholesky},
-                                                           {"cgnr", SolverPreset::kConjugateGradients},
-                                                           {"lbfgs", SolverPreset::kLbfgs}};
 
 const std::map<std::string, FieldMethod> kMethodOfName = {{"penalty", FieldMethod::kPenalty},
                                                           {"ray-sokolov", FieldMethod::kRaySokolov},
@@ -58,16 +49,10 @@ struct Arguments {
   std::filesystem::path quaternions;
   std::filesystem::path singularities;
   FieldMethod method = FieldMethod::kPenalty;
-  /// By default 3, and 4 for the methods that know no other.
-  std::optional<int> degree;
-  /// As on the command line, "fast" or one of kSolverOfName.
-  std::optional<std::string> solver;
+  /// Its degree is by default 3, and 4 for the methods that know no other.
+  SolverArguments solver;
   /// If given, it finds the features, whatever the mesh marks.
   std::optional<double> feature_angle;
-  std::uint32_t seed = 0;
-  int threads = 1;
-  std::optional<int> max_iterations;
-  bool quiet = false;
 };
 
 std::string NameOf(FieldMethod method) {
@@ -76,43 +61,6 @@ std::string NameOf(FieldMethod method) {
   }
   return "";
 }
-
-class Stopwatch {
- public:
-  /// Seconds since the construction or the last lap.
-  double Lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - start_).count();
-    start_ = now;
-    return seconds;
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-// Stops the solver on Ctrl-C, and shows the progress in one line of a terminal.
-class Progress : public ceres::IterationCallback {
- public:
-  Progress(const InterruptionGuard* guard, bool is_shown) : guard_(guard), is_shown_(is_shown) {}
-
-  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
-    if (is_shown_) {
-      std::fprintf(stderr, "\r\033[Kiteration %d  energy %.6g  %.1f s", summary.iteration, 2 * summary.cost,
-                   summary.cumulative_time_in_seconds);
-      std::fflush(stderr);
-    }
-    return guard_->IsInterrupted() ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
-  }
-
-  void Finish() const {
-    if (is_shown_) std::fprintf(stderr, "\r\033[K");
-  }
-
- private:
-  const InterruptionGuard* guard_;
-  bool is_shown_;
-};
 
 TetMesh LoadMesh(const Arguments& arguments, std::vector<std::string>* warnings) {
 #ifdef OCTUPOLE_WITH_GMSH
@@ -173,31 +121,17 @@ void RunField(const Arguments& arguments) {
   TetMesh mesh = LoadMesh(arguments, &warnings);
   for (std::string& warning : MeshWarnings(InspectMesh(mesh))) warnings.push_back(std::move(warning));
   const double read_seconds = stopwatch.Lap();
-  if (!arguments.quiet) {
-    for (const std::string& warning : warnings) {
-      std::fprintf(stderr, "%s: warning: %s\n", arguments.mesh.string().c_str(), warning.c_str());
-    }
-  }
+  if (!arguments.solver.quiet) PrintWarnings(arguments.mesh, warnings);
 
-  Progress progress(&guard, !arguments.quiet && isatty(fileno(stderr)) != 0);
+  Progress progress(&guard, arguments.solver.quiet);
   FieldOptions<kDegree> options;
   if (arguments.feature_angle) {
     options.feature_angle_deg = *arguments.feature_angle;
     mesh.feature_edges.clear();
     mesh.feature_points.clear();
   }
-  options.seed = arguments.seed;
   options.method = arguments.method;
-  options.minimizer.num_threads = arguments.threads;
-  if (arguments.max_iterations) options.minimizer.max_iterations = *arguments.max_iterations;
-  options.minimizer.callback = &progress;
-  const std::string solver = arguments.solver.value_or("fast");
-  if (solver != "fast") {
-    options.solver = MakeSolverOptions(kSolverOfName.at(solver));
-    options.solver->num_threads = arguments.threads;
-    if (arguments.max_iterations) options.solver->max_num_iterations = *arguments.max_iterations;
-    options.solver->callbacks.push_back(&progress);
-  }
+  SetSolverOptions(arguments.solver, &progress, &options);
   const std::clock_t cpu_start = std::clock();
   const Field<kDegree> field = SolveField<kDegree>(mesh, options);
   const double cpu_seconds = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
@@ -239,7 +173,7 @@ void RunField(const Arguments& arguments) {
       {"warnings", warnings},
       {"method", NameOf(arguments.method)},
       {"degree", kDegree},
-      {"seed", arguments.seed},
+      {"seed", arguments.solver.seed},
       {"unknowns", field.size.unknowns},
       {"nonzeros", field.size.nonzeros},
       {"termination", ceres::TerminationTypeToString(field.termination)},
@@ -265,7 +199,7 @@ void RunField(const Arguments& arguments) {
       // Of all threads, for setup, solve and project together.
       {"cpu_seconds", cpu_seconds},
   };
-  if (arguments.method == FieldMethod::kPenalty) report["solver"] = solver;
+  if (arguments.method == FieldMethod::kPenalty) report["solver"] = arguments.solver.solver.value_or("fast");
   if (!arguments.report.empty()) {
     WriteFileAtomically(arguments.report, [&](std::ostream& stream) { stream << report.dump(2) << "\n"; });
   }
@@ -273,7 +207,7 @@ void RunField(const Arguments& arguments) {
     std::fprintf(stderr, "octupole: interrupted; the field reached so far is in %s\n",
                  arguments.output.string().c_str());
   }
-  if (!arguments.quiet) PrintSummary(arguments, report);
+  if (!arguments.solver.quiet) PrintSummary(arguments, report);
 }
 
 }  // namespace
@@ -304,36 +238,23 @@ void AddFieldCommand(CLI::App* app) {
           "penalty, or of the classics in degree 4 ray-sokolov, huang or mbo")
       ->check(CLI::IsMember({"penalty", "ray-sokolov", "huang", "mbo"}))
       ->option_text("NAME [penalty]");
-  command->add_option("--degree", arguments->degree, "Of the harmonics of penalty: 3 (octupoles) or 4")
-      ->check(CLI::IsMember({3, 4}))
-      ->option_text("N [3]");
-  command->add_option("--solver", arguments->solver, "Of penalty: fast, or of Ceres cholesky, cgnr or lbfgs")
-      ->check(CLI::IsMember({"fast", "cholesky", "cgnr", "lbfgs"}))
-      ->option_text("NAME [fast]");
   command
       ->add_option(
           "--feature-angle", arguments->feature_angle,
           "Between normals, above which an edge is a feature; if given, features that the mesh marks are ignored")
       ->check(CLI::Range(1., 179.))
       ->option_text("DEG [40]");
-  command->add_option("--seed", arguments->seed, "Of the random start")->option_text("N [0]");
-  command->add_option("--threads", arguments->threads, "For the solver")
-      ->check(CLI::Range(1, 1024))
-      ->option_text("N [1]");
-  command->add_option("--max-iterations", arguments->max_iterations, "Stop there, converged or not")
-      ->check(CLI::NonNegativeNumber)
-      ->option_text("N");
-  command->add_flag("--quiet", arguments->quiet, "Print errors only");
+  AddSolverArguments(command, &arguments->solver);
   command->callback([arguments] {
     if (arguments->output.empty()) arguments->output = arguments->mesh.stem().string() + "_field.vtu";
     const bool is_classic = arguments->method != FieldMethod::kPenalty;
-    if (is_classic && arguments->solver) {
+    if (is_classic && arguments->solver.solver) {
       throw CLI::ValidationError("--solver", "only for --method penalty, not for " + NameOf(arguments->method));
     }
-    if (is_classic && arguments->degree == 3) {
+    if (is_classic && arguments->solver.degree == 3) {
       throw CLI::ValidationError("--degree", NameOf(arguments->method) + " knows degree 4 only");
     }
-    arguments->degree.value_or(is_classic ? 4 : 3) == 3 ? RunField<3>(*arguments) : RunField<4>(*arguments);
+    arguments->solver.degree.value_or(is_classic ? 4 : 3) == 3 ? RunField<3>(*arguments) : RunField<4>(*arguments);
   });
 }
 

@@ -5,14 +5,20 @@
 #include "compare_command.h"
 #include "field_command.h"
 #include "info_command.h"
+#ifdef OCTUPOLE_WITH_OPENMESH
+#include "surface_command.h"
+#endif
 
 int main(int argc, char** argv) {
-  CLI::App app("Volumetric frame fields on tetrahedral meshes.", "octupole");
+  CLI::App app("Frame fields on tetrahedral meshes and on surfaces.", "octupole");
   app.set_version_flag("--version", OCTUPOLE_VERSION);
   app.require_subcommand(1);
   octupole::AddFieldCommand(&app);
   octupole::AddInfoCommand(&app);
   octupole::AddCompareCommand(&app);
+#ifdef OCTUPOLE_WITH_OPENMESH
+  octupole::AddSurfaceCommand(&app);
+#endif
   // Commands run as CLI11 callbacks, so whatever they throw comes out of parse().
   try {
     app.parse(argc, argv);

@@ -1,0 +1,76 @@
+#include "solver_arguments.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <map>
+
+#include "octupole/solver_presets.h"
+
+namespace octupole {
+namespace {
+
+const std::map<std::string, SolverPreset> kSolverOfName = {{"cholesky", SolverPreset::kSparseCholesky},
+                                                           {"cgnr", SolverPreset::kConjugateGradients},
+                                                           {"lbfgs", SolverPreset::kLbfgs}};
+
+}  // namespace
+
+void AddSolverArguments(CLI::App* command, SolverArguments* arguments) {
+  command->add_option("--degree", arguments->degree, "Of the harmonics: 3 (octupoles) or 4")
+      ->check(CLI::IsMember({3, 4}))
+      ->option_text("N [3]");
+  command->add_option("--solver", arguments->solver, "fast, or of Ceres cholesky, cgnr or lbfgs")
+      ->check(CLI::IsMember({"fast", "cholesky", "cgnr", "lbfgs"}))
+      ->option_text("NAME [fast]");
+  command->add_option("--seed", arguments->seed, "Of the random start")->option_text("N [0]");
+  command->add_option("--threads", arguments->threads, "For the solver")
+      ->check(CLI::Range(1, 1024))
+      ->option_text("N [1]");
+  command->add_option("--max-iterations", arguments->max_iterations, "Stop there, converged or not")
+      ->check(CLI::NonNegativeNumber)
+      ->option_text("N");
+  command->add_flag("--quiet", arguments->quiet, "Print errors only");
+}
+
+template <int kDegree>
+void SetSolverOptions(const SolverArguments& arguments, ceres::IterationCallback* callback,
+                      FieldOptions<kDegree>* options) {
+  options->seed = arguments.seed;
+  options->minimizer.num_threads = arguments.threads;
+  if (arguments.max_iterations) options->minimizer.max_iterations = *arguments.max_iterations;
+  options->minimizer.callback = callback;
+  const std::string solver = arguments.solver.value_or("fast");
+  if (solver == "fast") return;
+  options->solver = MakeSolverOptions(kSolverOfName.at(solver));
+  options->solver->num_threads = arguments.threads;
+  if (arguments.max_iterations) options->solver->max_num_iterations = *arguments.max_iterations;
+  options->solver->callbacks.push_back(callback);
+}
+
+void PrintWarnings(const std::filesystem::path& file, const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) {
+    std::fprintf(stderr, "%s: warning: %s\n", file.string().c_str(), warning.c_str());
+  }
+}
+
+Progress::Progress(const InterruptionGuard* guard, bool is_quiet)
+    : guard_(guard), is_shown_(!is_quiet && isatty(fileno(stderr)) != 0) {}
+
+ceres::CallbackReturnType Progress::operator()(const ceres::IterationSummary& summary) {
+  if (is_shown_) {
+    std::fprintf(stderr, "\r\033[Kiteration %d  energy %.6g  %.1f s", summary.iteration, 2 * summary.cost,
+                 summary.cumulative_time_in_seconds);
+    std::fflush(stderr);
+  }
+  return guard_->IsInterrupted() ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+}
+
+void Progress::Finish() const {
+  if (is_shown_) std::fprintf(stderr, "\r\033[K");
+}
+
+template void SetSolverOptions<3>(const SolverArguments&, ceres::IterationCallback*, FieldOptions<3>*);
+template void SetSolverOptions<4>(const SolverArguments&, ceres::IterationCallback*, FieldOptions<4>*);
+
+}  // namespace octupole

@@ -1,0 +1,226 @@
+#include "surface_command.h"
+
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "interruption.h"
+#include "octupole/atomic_file.h"
+#include "octupole/cross_field.h"
+#include "octupole/field_solver.h"
+#include "octupole/frame.h"
+#include "octupole/surface_singularities.h"
+#include "octupole/vtu_writer.h"
+#include "output_folder.h"
+#include "solver_arguments.h"
+#include "surface_reader.h"
+
+namespace octupole {
+namespace {
+
+struct Arguments {
+  std::filesystem::path mesh;
+  std::filesystem::path output;
+  std::filesystem::path report;
+  double feature_angle = 40;
+  OpenBoundary open_boundary = OpenBoundary::kAligned;
+  SolverArguments solver;
+};
+
+// The field on the triangles, and on them the face that each was cut from.
+void WriteCrossField(const std::filesystem::path& path, const SurfaceFile& file,
+                     const std::vector<Eigen::Matrix3d>& crosses, const std::vector<Alignment>& alignments,
+                     const std::vector<int>& face_indices) {
+  std::array<std::vector<Eigen::Vector3d>, 3> axes;
+  for (const Eigen::Matrix3d& cross : crosses) {
+    for (int k = 0; k < 3; ++k) axes[k].push_back(cross.col(k));
+  }
+  std::vector<std::int32_t> kinds;
+  for (const Alignment& alignment : alignments) kinds.push_back(static_cast<std::int32_t>(alignment.kind()));
+  std::vector<std::int32_t> faces, indices;
+  for (const int face : file.faces) {
+    faces.push_back(face);
+    indices.push_back(face_indices[face]);
+  }
+  WriteVtu(path, file.mesh.points,
+           {{VtuCellType::kTriangle, file.mesh.triangles[0].data(), file.mesh.triangles.size()}},
+           {{"tangent_u", 3, axes[0][0].data()},
+            {"tangent_v", 3, axes[1][0].data()},
+            {"normal", 3, axes[2][0].data()},
+            {"alignment", 1, kinds.data()}},
+           {{"face", 1, faces.data()}, {"quarter_index", 1, indices.data()}});
+}
+
+void PrintSummary(const Arguments& arguments, const nlohmann::ordered_json& report) {
+  const auto integer = [](const nlohmann::ordered_json& value) { return value.get<int>(); };
+  const auto& alignment = report["alignment"];
+  std::printf("%s: %d vertices, %d faces, %d edges, Euler characteristic %d, %s\n", arguments.mesh.string().c_str(),
+              integer(report["vertices"]), integer(report["faces"]), integer(report["edges"]),
+              integer(report["euler_characteristic"]), report["is_closed"].get<bool>() ? "closed" : "open");
+  std::printf("alignment  %d normals, %d frames, %d tangents, %d free; %d feature edges, border %s\n",
+              integer(alignment["normals"]), integer(alignment["frames"]), integer(alignment["tangents"]),
+              integer(alignment["free"]), integer(report["features"]["edges"]),
+              report["boundary"].get<std::string>().c_str());
+  std::printf("solver     %s, degree %d, %d unknowns: %s after %d iterations\n",
+              report["solver"].get<std::string>().c_str(), integer(report["degree"]), integer(report["unknowns"]),
+              report["termination"].get<std::string>().c_str(), integer(report["iterations"]));
+  std::printf("energy     %.6g; of the frames: degree 3 %.6g, degree 4 %.6g\n", report["energy"].get<double>(),
+              report["energy3"].get<double>(), report["energy4"].get<double>());
+  std::string by_index;
+  for (const auto& [index, count] : report["singular_faces_by_index"].items()) {
+    by_index += (by_index.empty() ? " (" : ", ") + std::to_string(integer(count)) + " of index " + index;
+  }
+  std::printf("field      %d singular faces%s, indices sum to %g\n", integer(report["singular_faces"]),
+              by_index.empty() ? "" : (by_index + ")").c_str(), report["index_sum"].get<double>());
+  const auto& seconds = report["seconds"];
+  std::printf("seconds    read %.2f, setup %.2f, solve %.2f, project %.2f, write %.2f\n", seconds["read"].get<double>(),
+              seconds["setup"].get<double>(), seconds["solve"].get<double>(), seconds["project"].get<double>(),
+              seconds["write"].get<double>());
+  std::printf("written    %s\n", arguments.output.string().c_str());
+}
+
+template <int kDegree>
+void RunSurface(const Arguments& arguments) {
+  CheckFolderOf(arguments.output);
+  CheckFolderOf(arguments.report);
+  const InterruptionGuard guard;
+  Stopwatch stopwatch;
+  std::vector<std::string> warnings;
+  const SurfaceFile file = ReadSurface(arguments.mesh, &warnings);
+  const double read_seconds = stopwatch.Lap();
+  if (!arguments.solver.quiet) PrintWarnings(arguments.mesh, warnings);
+
+  Progress progress(&guard, arguments.solver.quiet);
+  FieldOptions<kDegree> options;
+  options.feature_angle_deg = arguments.feature_angle;
+  options.open_boundary = arguments.open_boundary;
+  SetSolverOptions(arguments.solver, &progress, &options);
+  const std::clock_t cpu_start = std::clock();
+  const Field<kDegree> field = SolveField<kDegree>(file.mesh, options);
+  const double cpu_seconds = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
+  progress.Finish();
+  if (!field.IsUsable()) {
+    throw std::runtime_error(arguments.mesh.string() + ": the solver failed: " +
+                             (field.ceres_summary ? field.ceres_summary->message : "the energy is not finite"));
+  }
+
+  const auto edges = MeshEdges(file.mesh);
+  double energy3 = 0, energy4 = 0;
+  for (const auto& [a, b] : edges) {
+    energy3 += FrameDifference<3>(field.frames[a], field.frames[b]);
+    energy4 += FrameDifference<4>(field.frames[a], field.frames[b]);
+  }
+  const SurfaceSingularities singularities =
+      FindSurfaceSingularities(file.mesh.points, file.mesh.triangles, field.frames);
+  std::vector<int> face_indices(file.num_faces, 0);
+  for (std::size_t t = 0; t < file.faces.size(); ++t) face_indices[file.faces[t]] += singularities.quarter_indices[t];
+  int euler_characteristic = 0, quarter_sum = 0;
+  bool is_closed = true;
+  for (const SurfaceComponent& component : singularities.components) {
+    euler_characteristic += component.euler_characteristic;
+    quarter_sum += component.quarter_index_sum;
+    is_closed &= component.is_closed;
+  }
+  // By index, "1/4" and so on.
+  std::map<int, int> count_of_index;
+  for (const int index : face_indices) {
+    if (index != 0) ++count_of_index[index];
+  }
+  nlohmann::ordered_json by_index = nlohmann::ordered_json::object();
+  int num_singular = 0;
+  for (const auto& [index, count] : count_of_index) {
+    by_index[std::to_string(index) + "/4"] = count;
+    num_singular += count;
+  }
+
+  stopwatch.Lap();
+  WriteCrossField(arguments.output, file, CrossField(file.mesh, field.frames), field.alignment.alignments,
+                  face_indices);
+  const double write_seconds = stopwatch.Lap();
+
+  const nlohmann::ordered_json report = {
+      {"mesh", arguments.mesh.string()},
+      {"output", arguments.output.string()},
+      {"vertices", file.mesh.points.size()},
+      {"faces", file.num_faces},
+      {"triangles", file.mesh.triangles.size()},
+      {"edges", edges.size()},
+      {"components", singularities.components.size()},
+      {"euler_characteristic", euler_characteristic},
+      {"is_closed", is_closed},
+      {"boundary", arguments.open_boundary == OpenBoundary::kAligned ? "aligned" : "free"},
+      {"alignment",
+       {{"normals", field.alignment.num_normals},
+        {"frames", field.alignment.num_frames},
+        {"tangents", field.alignment.num_tangents},
+        {"free", field.alignment.num_free}}},
+      {"features", {{"source", "angle"}, {"edges", field.alignment.num_feature_edges}}},
+      {"warnings", warnings},
+      {"degree", kDegree},
+      {"seed", arguments.solver.seed},
+      {"solver", arguments.solver.solver.value_or("fast")},
+      {"unknowns", field.size.unknowns},
+      {"termination", ceres::TerminationTypeToString(field.termination)},
+      {"iterations", field.iterations.empty() ? 0 : field.iterations.back().iteration},
+      {"energy", field.energy},
+      {"energy3", energy3},
+      {"energy4", energy4},
+      {"singular_faces", num_singular},
+      {"singular_faces_by_index", by_index},
+      {"index_sum", quarter_sum / 4.},
+      {"seconds",
+       {{"read", read_seconds},
+        {"setup", field.setup_seconds},
+        {"solve", field.solve_seconds},
+        {"project", field.project_seconds},
+        {"write", write_seconds}}},
+      // Of all threads, for setup, solve and project together.
+      {"cpu_seconds", cpu_seconds},
+  };
+  if (!arguments.report.empty()) {
+    WriteFileAtomically(arguments.report, [&](std::ostream& stream) { stream << report.dump(2) << "\n"; });
+  }
+  if (guard.IsInterrupted()) {
+    std::fprintf(stderr, "octupole: interrupted; the field reached so far is in %s\n",
+                 arguments.output.string().c_str());
+  }
+  if (!arguments.solver.quiet) PrintSummary(arguments, report);
+}
+
+}  // namespace
+
+void AddSurfaceCommand(CLI::App* app) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app->add_subcommand("surface", "Compute a cross field on a surface mesh");
+  command->add_option("mesh", arguments->mesh, ".obj, .off, .stl or .ply; triangles or polygons")
+      ->required()
+      ->option_text("MESH");
+  command->add_option("-o,--output", arguments->output, "The field, for ParaView; by default MESH_field.vtu, here")
+      ->option_text("F.vtu");
+  command->add_option("--report", arguments->report, "All figures as JSON")->option_text("F.json");
+  command->add_option("--feature-angle", arguments->feature_angle, "Between normals, above which an edge is a crease")
+      ->check(CLI::Range(1., 179.))
+      ->option_text("DEG [40]");
+  command
+      ->add_option_function<std::string>(
+          "--boundary",
+          [arguments](const std::string& name) {
+            arguments->open_boundary = name == "free" ? OpenBoundary::kFree : OpenBoundary::kAligned;
+          },
+          "Where the surface is open, its border: aligned or free")
+      ->check(CLI::IsMember({"aligned", "free"}))
+      ->option_text("NAME [aligned]");
+  AddSolverArguments(command, &arguments->solver);
+  command->callback([arguments] {
+    if (arguments->output.empty()) arguments->output = arguments->mesh.stem().string() + "_field.vtu";
+    arguments->solver.degree.value_or(3) == 3 ? RunSurface<3>(*arguments) : RunSurface<4>(*arguments);
+  });
+}
+
+}  // namespace octupole
