@@ -1,11 +1,11 @@
 include(CMakePackageConfigHelpers)
 
-# octupole_add_library(<component> [HEADERS ...] [SOURCES ...] [LINK ...] [LINK_PRIVATE ...])
+# octupole_add_library(<component> [HEADERS ...] [SOURCES ...] [LINK ...] [LINK_PRIVATE ...] [PRECOMPILE ...])
 #
 # Makes the target octupole_<component> with the alias octupole::<component>, the current folder as its include root,
 # and an export set of its own, so that a consumer of one component needs the dependencies of that one only.
 function(octupole_add_library component)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS;SOURCES;LINK;LINK_PRIVATE")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS;SOURCES;LINK;LINK_PRIVATE;PRECOMPILE")
   set(target octupole_${component})
   if(arg_SOURCES)
     set(scope PUBLIC)
@@ -21,6 +21,9 @@ function(octupole_add_library component)
   target_compile_features(${target} ${scope} cxx_std_17)
   target_sources(${target} ${scope} FILE_SET HEADERS BASE_DIRS ${CMAKE_CURRENT_SOURCE_DIR} FILES ${arg_HEADERS})
   target_link_libraries(${target} ${scope} ${arg_LINK})
+  if(arg_PRECOMPILE AND PROJECT_IS_TOP_LEVEL)  # the packaging test builds without, so that no include goes missing
+    target_precompile_headers(${target} PRIVATE ${arg_PRECOMPILE})
+  endif()
   if(arg_LINK_PRIVATE)
     target_link_libraries(${target} PRIVATE ${arg_LINK_PRIVATE})
   endif()

@@ -21,7 +21,7 @@
 #include "child_process.h"
 #include "interruption.h"
 #include "octupole/atomic_file.h"
-#include "output_folder.h"
+#include "output_files.h"
 
 namespace octupole {
 namespace {
@@ -393,7 +393,7 @@ void RunCompare(const Arguments& arguments) {
                       {"threads", arguments.threads},
                       {"repeat", arguments.repeat},
                       {"meshes", comparisons}};
-    WriteFileAtomically(arguments.json, [&](std::ostream& stream) { stream << all.dump(2) << "\n"; });
+    WriteReport(arguments.json, all);
   }
   if (!arguments.trace.empty()) {
     WriteCsv(

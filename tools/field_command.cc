@@ -13,7 +13,6 @@
 
 #include "interruption.h"
 #include "octupole/aligned_frame.h"
-#include "octupole/atomic_file.h"
 #include "octupole/field_quality.h"
 #include "octupole/field_solver.h"
 #include "octupole/field_writer.h"
@@ -27,7 +26,7 @@
 #ifdef OCTUPOLE_WITH_GMSH
 #include "octupole/cad_mesher.h"
 #endif
-#include "output_folder.h"
+#include "output_files.h"
 #include "singularity_report.h"
 #include "solver_arguments.h"
 
@@ -161,11 +160,7 @@ void RunField(const Arguments& arguments) {
       {"vertices", mesh.points.size()},
       {"tets", mesh.tets.size()},
       {"edges", quality.edges},
-      {"alignment",
-       {{"normals", field.alignment.num_normals},
-        {"frames", field.alignment.num_frames},
-        {"tangents", field.alignment.num_tangents},
-        {"free", field.alignment.num_free}}},
+      {"alignment", DescribeAlignment(field.alignment)},
       {"features",
        {{"source", field.alignment.has_marked_features ? "marked" : "angle"},
         {"edges", field.alignment.num_feature_edges},
@@ -200,9 +195,7 @@ void RunField(const Arguments& arguments) {
       {"cpu_seconds", cpu_seconds},
   };
   if (arguments.method == FieldMethod::kPenalty) report["solver"] = arguments.solver.solver.value_or("fast");
-  if (!arguments.report.empty()) {
-    WriteFileAtomically(arguments.report, [&](std::ostream& stream) { stream << report.dump(2) << "\n"; });
-  }
+  WriteReport(arguments.report, report);
   if (guard.IsInterrupted()) {
     std::fprintf(stderr, "octupole: interrupted; the field reached so far is in %s\n",
                  arguments.output.string().c_str());

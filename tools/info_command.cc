@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "octupole/atomic_file.h"
 #include "octupole/boundary_alignment.h"
 #include "octupole/mesh_inspection.h"
 #include "octupole/mesh_io.h"
 #include "octupole/mesh_topology.h"
 #include "octupole/surface_singularities.h"
+#include "output_files.h"
 
 namespace octupole {
 namespace {
@@ -152,10 +152,9 @@ void AddInfoCommand(CLI::App* app) {
   command->add_option("--report", arguments->report, "The same as JSON")->option_text("F.json");
   command->add_flag("--quiet", arguments->quiet, "Print errors only");
   command->callback([arguments] {
+    CheckFolderOf(arguments->report);
     const ordered_json info = Describe(arguments->mesh);
-    if (!arguments->report.empty()) {
-      WriteFileAtomically(arguments->report, [&](std::ostream& stream) { stream << info.dump(2) << "\n"; });
-    }
+    WriteReport(arguments->report, info);
     if (!arguments->quiet) Print(info);
   });
 }

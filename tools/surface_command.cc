@@ -11,13 +11,12 @@
 #include <vector>
 
 #include "interruption.h"
-#include "octupole/atomic_file.h"
 #include "octupole/cross_field.h"
 #include "octupole/field_solver.h"
 #include "octupole/frame.h"
 #include "octupole/surface_singularities.h"
 #include "octupole/vtu_writer.h"
-#include "output_folder.h"
+#include "output_files.h"
 #include "solver_arguments.h"
 #include "surface_reader.h"
 
@@ -155,11 +154,7 @@ void RunSurface(const Arguments& arguments) {
       {"euler_characteristic", euler_characteristic},
       {"is_closed", is_closed},
       {"boundary", arguments.open_boundary == OpenBoundary::kAligned ? "aligned" : "free"},
-      {"alignment",
-       {{"normals", field.alignment.num_normals},
-        {"frames", field.alignment.num_frames},
-        {"tangents", field.alignment.num_tangents},
-        {"free", field.alignment.num_free}}},
+      {"alignment", DescribeAlignment(field.alignment)},
       {"features", {{"source", "angle"}, {"edges", field.alignment.num_feature_edges}}},
       {"warnings", warnings},
       {"degree", kDegree},
@@ -183,9 +178,7 @@ void RunSurface(const Arguments& arguments) {
       // Of all threads, for setup, solve and project together.
       {"cpu_seconds", cpu_seconds},
   };
-  if (!arguments.report.empty()) {
-    WriteFileAtomically(arguments.report, [&](std::ostream& stream) { stream << report.dump(2) << "\n"; });
-  }
+  WriteReport(arguments.report, report);
   if (guard.IsInterrupted()) {
     std::fprintf(stderr, "octupole: interrupted; the field reached so far is in %s\n",
                  arguments.output.string().c_str());

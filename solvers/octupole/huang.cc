@@ -19,13 +19,8 @@ FrameSolution SolveHuang(const FieldGraph& graph, const MinimizerOptions& option
   const internal::Frames start(graph.num_vertices(), RandomRotation(&generator).toRotationMatrix());
   const FrameEnergy energy(ordered, start, minimizer.workers(), kHuangBoundaryWeight);
   std::vector<double> x(energy.NumParameters(), 0);
-  FrameSolution result;
-  result.energy = minimizer.Minimize(energy, ordered, internal::kFrameTolerance, &x);
-  result.termination = minimizer.termination();
-  result.frames = internal::InOriginalOrder(order, energy.FramesOf(x));
-  result.iterations = minimizer.iterations();
-  result.size = SizeOfProblem(graph, {3, 3, 3});
-  return result;
+  const double lowest = minimizer.Minimize(energy, ordered, internal::kFrameTolerance, &x);
+  return minimizer.MakeSolution(order, energy.FramesOf(x), lowest, SizeOfProblem(graph, {3, 3, 3}));
 }
 
 }  // namespace octupole

@@ -91,13 +91,7 @@ FrameSolution SolveMbo(const FieldGraph& graph, const MinimizerOptions& options)
     if (minimizer.termination() != ceres::CONVERGENCE) break;
     if (std::abs(last_cost - cost) <= kTolerance * cost || change <= kTolerance * Norm(x)) break;
   }
-  FrameSolution result;
-  result.energy = 2 * cost;
-  result.termination = minimizer.termination();
-  result.frames = internal::InOriginalOrder(order, frames);
-  result.iterations = minimizer.iterations();
-  result.size = SizeOfProblem(graph, kUnknownsOfKind<4>);
-  return result;
+  return minimizer.MakeSolution(order, frames, 2 * cost, SizeOfProblem(graph, kUnknownsOfKind<4>));
 }
 
 }  // namespace octupole

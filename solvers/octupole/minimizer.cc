@@ -27,6 +27,17 @@ double Minimizer::Minimize(const ceres::FirstOrderFunction& function, const Fiel
   return 2 * summary.final_cost;
 }
 
+FrameSolution Minimizer::MakeSolution(const std::vector<int>& order, const Frames& frames, double energy,
+                                      const ProblemSize& size) const {
+  FrameSolution solution;
+  solution.termination = termination_;
+  solution.frames = InOriginalOrder(order, frames);
+  solution.energy = energy;
+  solution.iterations = iterations_;
+  solution.size = size;
+  return solution;
+}
+
 ceres::CallbackReturnType Minimizer::operator()(const ceres::IterationSummary& summary) {
   iterations_.push_back(summary);
   iterations_.back().iteration = static_cast<int>(iterations_.size());

@@ -23,6 +23,14 @@ using Frames = std::vector<Eigen::Matrix3d>;
 /// Relative decrease per iteration at which frames are polished.
 inline constexpr double kFrameTolerance = 2e-5;
 
+/// Values of the vertices of Reorder(graph, order), in the order of `graph`.
+template <typename Value>
+std::vector<Value> InOriginalOrder(const std::vector<int>& order, const std::vector<Value>& values) {
+  std::vector<Value> result(values.size());
+  for (std::size_t i = 0; i < order.size(); ++i) result[order[i]] = values[i];
+  return result;
+}
+
 /// Runs the minimisations of one solve: counts their iterations against the limit and passes them on to the caller.
 class Minimizer final : public ceres::IterationCallback {
  public:
@@ -37,6 +45,10 @@ class Minimizer final : public ceres::IterationCallback {
   /// the energy reached, twice the cost.
   double Minimize(const ceres::FirstOrderFunction& function, const FieldGraph& graph, double tolerance,
                   std::vector<double>* x);
+
+  /// What a method found on Reorder(graph, order), in the order of the graph.
+  FrameSolution MakeSolution(const std::vector<int>& order, const Frames& frames, double energy,
+                             const ProblemSize& size) const;
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override;
 
@@ -68,13 +80,5 @@ Frames LinearFrames(const FieldGraph& graph, double tolerance, std::uint32_t see
 
 template <int kDegree>
 std::vector<Harmonic<kDegree>> HarmonicsOf(const Frames& frames);
-
-/// Values of the vertices of Reorder(graph, order), in the order of `graph`.
-template <typename Value>
-std::vector<Value> InOriginalOrder(const std::vector<int>& order, const std::vector<Value>& values) {
-  std::vector<Value> result(values.size());
-  for (std::size_t i = 0; i < order.size(); ++i) result[order[i]] = values[i];
-  return result;
-}
 
 }  // namespace octupole::internal

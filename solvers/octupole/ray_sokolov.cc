@@ -20,13 +20,8 @@ FrameSolution SolveRaySokolov(const FieldGraph& graph, const MinimizerOptions& o
   const std::vector<int> order = BreadthFirstOrder(graph);
   const FieldGraph ordered = Reorder(graph, order);
   internal::Frames frames = internal::LinearFrames(ordered, kLinearTolerance, options.seed, &minimizer);
-  FrameSolution result;
-  result.energy = internal::PolishFrames(ordered, &minimizer, &frames);
-  result.termination = minimizer.termination();
-  result.frames = internal::InOriginalOrder(order, frames);
-  result.iterations = minimizer.iterations();
-  result.size = SizeOfProblem(graph, kUnknownsOfKind<4>);
-  return result;
+  const double energy = internal::PolishFrames(ordered, &minimizer, &frames);
+  return minimizer.MakeSolution(order, frames, energy, SizeOfProblem(graph, kUnknownsOfKind<4>));
 }
 
 }  // namespace octupole
