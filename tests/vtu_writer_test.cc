@@ -62,7 +62,7 @@ std::vector<T> ReadArray(const std::string& vtu, const std::string& attributes) 
   }
   EXPECT_EQ(next, blocks.size());
   std::vector<T> values(bytes.size() / sizeof(T));
-  std::memcpy(values.data(), bytes.data(), bytes.size());
+  if (!values.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
   return values;
 }
 
