@@ -10,6 +10,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "gradient_check.h"
 #include "octupole/box_mesh.h"
 #include "random_inputs.h"
 
@@ -82,21 +83,7 @@ TYPED_TEST(FieldEnergyTest, HasTheNumericGradient) {
   constexpr int l = TypeParam::value;
   Workers workers(1);
   const FieldEnergy<l> energy(AnyGraph(true), {}, &workers);
-  std::vector<double> x = AnyParameters(energy.NumParameters());
-  double cost = 0;
-  std::vector<double> gradient(x.size());
-  ASSERT_TRUE(energy.Evaluate(x.data(), &cost, gradient.data()));
-  constexpr double kStep = 1e-5;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const double value = x[i];
-    double above = 0, below = 0;
-    x[i] = value + kStep;
-    energy.Evaluate(x.data(), &above, nullptr);
-    x[i] = value - kStep;
-    energy.Evaluate(x.data(), &below, nullptr);
-    x[i] = value;
-    ASSERT_NEAR(gradient[i], (above - below) / (2 * kStep), 1e-5 * (1 + std::abs(gradient[i]))) << i;
-  }
+  ExpectNumericGradient(energy, AnyParameters(energy.NumParameters()), 1e-5, 1e-5);
 }
 
 TYPED_TEST(FieldEnergyTest, IsFiniteAtZero) {

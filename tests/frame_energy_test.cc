@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "gradient_check.h"
 #include "octupole/aligned_frame.h"
 #include "octupole/alignment.h"
 #include "octupole/box_mesh.h"
@@ -95,21 +96,7 @@ TEST_P(FrameEnergyGradient, IsTheNumericOne) {
   const FieldGraph graph = AnyGraph(true);
   Workers workers(1);
   const FrameEnergy energy(graph, AnyFrames(graph), &workers, GetParam());
-  std::vector<double> x = AnyParameters(energy.NumParameters());
-  double cost = 0;
-  std::vector<double> gradient(x.size());
-  ASSERT_TRUE(energy.Evaluate(x.data(), &cost, gradient.data()));
-  constexpr double kStep = 1e-6;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const double value = x[i];
-    double above = 0, below = 0;
-    x[i] = value + kStep;
-    energy.Evaluate(x.data(), &above, nullptr);
-    x[i] = value - kStep;
-    energy.Evaluate(x.data(), &below, nullptr);
-    x[i] = value;
-    ASSERT_NEAR(gradient[i], (above - below) / (2 * kStep), 1e-7 * (1 + std::abs(gradient[i]))) << i;
-  }
+  ExpectNumericGradient(energy, AnyParameters(energy.NumParameters()), 1e-6, 1e-7);
 }
 
 TEST(FrameEnergy, KeepsAlignmentsAndStartsFromTheGivenFrames) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -60,14 +61,10 @@ ordered_json DescribeShells(const TetMesh& mesh, const std::vector<std::array<in
   return shells;
 }
 
-ordered_json DescribeFeatures(TetMesh mesh) {
-  const std::size_t num_points = mesh.feature_points.size();
-  const std::size_t num_marked = mesh.feature_edges.size();
-  mesh.feature_edges.clear();
-  mesh.feature_points.clear();
-  return {{"marked_edges", num_marked},
-          {"marked_points", num_points},
-          {"sharp_edges", AlignToBoundary(mesh).num_feature_edges}};
+ordered_json DescribeFeatures(const TetMesh& mesh, const std::vector<std::array<int, 3>>& triangles) {
+  return {{"marked_edges", mesh.feature_edges.size()},
+          {"marked_points", mesh.feature_points.size()},
+          {"sharp_edges", AlignToSurface({mesh.points, triangles}).num_feature_edges}};
 }
 
 ordered_json Describe(const std::filesystem::path& path) {
@@ -88,7 +85,7 @@ ordered_json Describe(const std::filesystem::path& path) {
           {"components", inspection.components},
           {"boundary_triangles", triangles.size()},
           {"boundary_components", DescribeShells(mesh, triangles)},
-          {"features", DescribeFeatures(mesh)},
+          {"features", DescribeFeatures(mesh, triangles)},
           {"mean_ratio", DescribeQuality(mesh)},
           {"inverted_tets", inspection.inverted_tets},
           {"zero_volume_tets", inspection.zero_volume_tets},
