@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "octupole/analytic_deviation_cost.h"
-#include "octupole/analytic_smoothness_cost.h"
-#include "octupole/box_mesh.h"
-#include "octupole/deviation_cost.h"
-#include "octupole/field_problem.h"
-#include "octupole/smoothness_cost.h"
+#include "octupole/cost_functions/analytic_deviation_cost.h"
+#include "octupole/cost_functions/analytic_smoothness_cost.h"
+#include "octupole/cost_functions/deviation_cost.h"
+#include "octupole/cost_functions/smoothness_cost.h"
+#include "octupole/mesh/box_mesh.h"
+#include "octupole/solvers/field_problem.h"
 
 namespace octupole {
 namespace {

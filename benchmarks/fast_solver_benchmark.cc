@@ -20,16 +20,16 @@
 #include <vector>
 
 #include "ball_mesh.h"
-#include "octupole/aligned_frame.h"
-#include "octupole/boundary_alignment.h"
-#include "octupole/fast_solver.h"
-#include "octupole/field_energy.h"
-#include "octupole/field_quality.h"
-#include "octupole/field_solver.h"
-#include "octupole/lbfgs.h"
-#include "octupole/mesh_io.h"
-#include "octupole/solver_presets.h"
-#include "octupole/workers.h"
+#include "octupole/field/aligned_frame.h"
+#include "octupole/field/boundary_alignment.h"
+#include "octupole/field/field_quality.h"
+#include "octupole/io/mesh_io.h"
+#include "octupole/solvers/fast_solver.h"
+#include "octupole/solvers/field_energy.h"
+#include "octupole/solvers/field_solver.h"
+#include "octupole/solvers/lbfgs.h"
+#include "octupole/solvers/solver_presets.h"
+#include "octupole/solvers/workers.h"
 
 namespace octupole {
 namespace {
@@ -124,8 +124,7 @@ void Solve(benchmark::State& state, const TetMesh& mesh, std::optional<SolverPre
   Field<3> field;
   const double start = CpuSeconds();
   for (auto _ : state) field = SolveField<3>(mesh, options);
-  Report(mesh, CpuSeconds() - start, static_cast<double>(field.iterations.size()), field.energy, field.frames,
-         &state);
+  Report(mesh, CpuSeconds() - start, static_cast<double>(field.iterations.size()), field.energy, field.frames, &state);
 }
 
 // The whole energy as one function, from a random start on the mesh itself: our L-BFGS.

@@ -6,8 +6,8 @@
 #include <random>
 #include <vector>
 
-#include "octupole/frame.h"
-#include "octupole/random_rotation.h"
+#include "octupole/frames/frame.h"
+#include "octupole/frames/random_rotation.h"
 
 namespace octupole {
 namespace {

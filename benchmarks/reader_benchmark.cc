@@ -11,9 +11,9 @@
 #include <random>
 
 #include "mesh_writers.h"
-#include "octupole/box_mesh.h"
-#include "octupole/mesh_io.h"
-#include "octupole/vtu_writer.h"
+#include "octupole/io/mesh_io.h"
+#include "octupole/io/vtu_writer.h"
+#include "octupole/mesh/box_mesh.h"
 #include "test_files.h"
 
 namespace octupole {

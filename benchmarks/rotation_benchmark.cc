@@ -8,8 +8,8 @@
 #include <unsupported/Eigen/MatrixFunctions>
 #include <vector>
 
-#include "octupole/random_rotation.h"
-#include "octupole/rotation.h"
+#include "octupole/frames/random_rotation.h"
+#include "octupole/harmonics/rotation.h"
 
 namespace octupole {
 namespace {

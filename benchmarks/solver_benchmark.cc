@@ -5,8 +5,8 @@
 #include <string>
 
 #include "ball_mesh.h"
-#include "octupole/field_solver.h"
-#include "octupole/solver_presets.h"
+#include "octupole/solvers/field_solver.h"
+#include "octupole/solvers/solver_presets.h"
 
 namespace octupole {
 namespace {

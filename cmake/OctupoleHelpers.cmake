@@ -1,11 +1,18 @@
 include(CMakePackageConfigHelpers)
 
-# octupole_add_library(<component> [HEADERS ...] [SOURCES ...] [LINK ...] [LINK_PRIVATE ...] [PRECOMPILE ...])
+# octupole_add_library(<component> [ROOMS ...] [HEADERS ...] [SOURCES ...] [LINK ...] [LINK_PRIVATE ...] [PRECOMPILE ...])
 #
 # Makes the target octupole_<component> with the alias octupole::<component>, the current folder as its include root,
 # and an export set of its own, so that a consumer of one component needs the dependencies of that one only.
+# Of each room, a folder octupole/<room>, all headers are public and installed but those in its folder internal/.
 function(octupole_add_library component)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "HEADERS;SOURCES;LINK;LINK_PRIVATE;PRECOMPILE")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "ROOMS;HEADERS;SOURCES;LINK;LINK_PRIVATE;PRECOMPILE")
+  foreach(room IN LISTS arg_ROOMS)
+    file(GLOB headers CONFIGURE_DEPENDS octupole/${room}/*.h)
+    file(GLOB sources CONFIGURE_DEPENDS octupole/${room}/*.cc octupole/${room}/internal/*)
+    list(APPEND arg_HEADERS ${headers})
+    list(APPEND arg_SOURCES ${sources})
+  endforeach()
   set(target octupole_${component})
   if(arg_SOURCES)
     set(scope PUBLIC)
@@ -19,7 +26,8 @@ function(octupole_add_library component)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${component} POSITION_INDEPENDENT_CODE ON
                         VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   target_compile_features(${target} ${scope} cxx_std_17)
-  target_sources(${target} ${scope} FILE_SET HEADERS BASE_DIRS ${CMAKE_CURRENT_SOURCE_DIR} FILES ${arg_HEADERS})
+  target_sources(${target} ${scope} FILE_SET HEADERS BASE_DIRS ${CMAKE_CURRENT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}
+                 FILES ${arg_HEADERS})
   target_link_libraries(${target} ${scope} ${arg_LINK})
   if(arg_PRECOMPILE AND PROJECT_IS_TOP_LEVEL)  # the packaging test builds without, so that no include goes missing
     target_precompile_headers(${target} PRIVATE ${arg_PRECOMPILE})

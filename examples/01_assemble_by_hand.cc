@@ -2,11 +2,11 @@
 // of your own, and whatever Ceres solver you like. The mesh here is a bar, 6 x 2 x 2, each of its
 // cubes cut into six tets.
 #include <ceres/ceres.h>
-#include <octupole/alignment_manifold.h>
-#include <octupole/deviation_cost.h>
-#include <octupole/frame.h>
-#include <octupole/scale_cost.h>
-#include <octupole/smoothness_cost.h>
+#include <octupole/cost_functions/alignment_manifold.h>
+#include <octupole/cost_functions/deviation_cost.h>
+#include <octupole/cost_functions/scale_cost.h>
+#include <octupole/cost_functions/smoothness_cost.h>
+#include <octupole/frames/frame.h>
 
 #include <Eigen/Core>
 #include <algorithm>

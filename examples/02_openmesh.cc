@@ -1,10 +1,10 @@
 // With OpenMesh: a cross field on a surface mesh, and features marked on the boundary of a tet mesh that steer the
 // frames inside. Any mesh type of OpenMesh will do.
-#include <octupole/box_mesh.h>
-#include <octupole/cross_field.h>
-#include <octupole/fast_solver.h>
-#include <octupole/field_solver.h>
-#include <octupole/openmesh_surface.h>
+#include <octupole/adaptors/openmesh_surface.h>
+#include <octupole/field/cross_field.h>
+#include <octupole/mesh/box_mesh.h>
+#include <octupole/solvers/fast_solver.h>
+#include <octupole/solvers/field_solver.h>
 
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>

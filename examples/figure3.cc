@@ -17,10 +17,10 @@
 #include <random>
 #include <vector>
 
-#include "octupole/frame.h"
-#include "octupole/penalty.h"
-#include "octupole/random_rotation.h"
-#include "octupole/rotation.h"
+#include "octupole/frames/frame.h"
+#include "octupole/frames/random_rotation.h"
+#include "octupole/harmonics/penalty.h"
+#include "octupole/harmonics/rotation.h"
 
 namespace {
 

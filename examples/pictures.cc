@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
-#include "octupole/frame.h"
-#include "octupole/fundamental_zone.h"
-#include "octupole/spherical_plot.h"
+#include "octupole/frames/frame.h"
+#include "octupole/frames/fundamental_zone.h"
+#include "octupole/io/spherical_plot.h"
 
 namespace {
 

@@ -20,7 +20,7 @@
 
 #include "child_process.h"
 #include "interruption.h"
-#include "octupole/atomic_file.h"
+#include "octupole/io/atomic_file.h"
 #include "output_files.h"
 
 namespace octupole {

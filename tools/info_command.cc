@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
-#include "octupole/boundary_alignment.h"
-#include "octupole/mesh_inspection.h"
-#include "octupole/mesh_io.h"
-#include "octupole/mesh_topology.h"
-#include "octupole/surface_singularities.h"
+#include "octupole/field/boundary_alignment.h"
+#include "octupole/io/mesh_io.h"
+#include "octupole/mesh/mesh_inspection.h"
+#include "octupole/mesh/mesh_topology.h"
+#include "octupole/singularities/surface_singularities.h"
 #include "output_files.h"
 
 namespace octupole {

@@ -3,7 +3,7 @@
 #include <ostream>
 #include <stdexcept>
 
-#include "octupole/atomic_file.h"
+#include "octupole/io/atomic_file.h"
 
 namespace octupole {
 

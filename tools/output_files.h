@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "octupole/boundary_alignment.h"
+#include "octupole/field/boundary_alignment.h"
 
 namespace octupole {
 

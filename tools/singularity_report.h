@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "octupole/field_quality.h"
-#include "octupole/singular_curves.h"
-#include "octupole/surface_singularities.h"
+#include "octupole/field/field_quality.h"
+#include "octupole/singularities/singular_curves.h"
+#include "octupole/singularities/surface_singularities.h"
 
 namespace octupole {
 

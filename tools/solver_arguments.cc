@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <map>
 
-#include "octupole/solver_presets.h"
+#include "octupole/solvers/solver_presets.h"
 
 namespace octupole {
 namespace {

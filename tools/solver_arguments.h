@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "interruption.h"
-#include "octupole/field_solver.h"
+#include "octupole/solvers/field_solver.h"
 
 namespace octupole {
 

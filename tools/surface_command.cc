@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "interruption.h"
-#include "octupole/cross_field.h"
-#include "octupole/field_solver.h"
-#include "octupole/frame.h"
-#include "octupole/surface_singularities.h"
-#include "octupole/vtu_writer.h"
+#include "octupole/field/cross_field.h"
+#include "octupole/frames/frame.h"
+#include "octupole/io/vtu_writer.h"
+#include "octupole/singularities/surface_singularities.h"
+#include "octupole/solvers/field_solver.h"
 #include "output_files.h"
 #include "solver_arguments.h"
 #include "surface_reader.h"

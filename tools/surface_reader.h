@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "octupole/triangle_mesh.h"
+#include "octupole/mesh/triangle_mesh.h"
 
 namespace octupole {
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "mesh_writers.h"
-#include "octupole/box_mesh.h"
-#include "octupole/vtu_writer.h"
+#include "octupole/io/vtu_writer.h"
+#include "octupole/mesh/box_mesh.h"
 #include "test_files.h"
 
 namespace octupole {

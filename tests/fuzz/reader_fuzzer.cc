@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "octupole/mesh_readers.h"
+#include "octupole/io/internal/mesh_readers.h"
 
 namespace octupole::internal {
 namespace {

@@ -1,7 +1,7 @@
-#include <octupole/boundary_alignment.h>
-#include <octupole/field_writer.h>
-#include <octupole/harmonics.h>
-#include <octupole/mesh_io.h>
+#include <octupole/field/boundary_alignment.h>
+#include <octupole/harmonics/harmonics.h>
+#include <octupole/io/field_writer.h>
+#include <octupole/io/mesh_io.h>
 
 #include <Eigen/Core>
 #include <cmath>

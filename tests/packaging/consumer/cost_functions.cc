@@ -1,5 +1,5 @@
-#include <octupole/harmonics.h>
-#include <octupole/smoothness_cost.h>
+#include <octupole/cost_functions/smoothness_cost.h>
+#include <octupole/harmonics/harmonics.h>
 
 #include <memory>
 

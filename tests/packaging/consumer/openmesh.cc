@@ -1,6 +1,6 @@
-#include <octupole/boundary_alignment.h>
-#include <octupole/box_mesh.h>
-#include <octupole/openmesh_surface.h>
+#include <octupole/adaptors/openmesh_surface.h>
+#include <octupole/field/boundary_alignment.h>
+#include <octupole/mesh/box_mesh.h>
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 

@@ -1,5 +1,5 @@
-#include <octupole/box_mesh.h>
-#include <octupole/field_solver.h>
+#include <octupole/mesh/box_mesh.h>
+#include <octupole/solvers/field_solver.h>
 
 int main() {
   // The smoothest frames in a box are its axes, everywhere.

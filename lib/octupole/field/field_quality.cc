@@ -1,0 +1,72 @@
+#include "octupole/field/field_quality.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "octupole/frames/frame.h"
+#include "octupole/mesh/mesh_topology.h"
+#include "octupole/mesh/surface_corners.h"
+
+namespace octupole {
+namespace {
+
+constexpr double kSmoothAngleDeg = 35;
+
+void MeasureBoundary(const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& frames,
+                     const std::vector<std::array<int, 3>>& triangles, FieldQuality* quality) {
+  const auto corners_of = SurfaceCorners(mesh.points, triangles);
+  double sum_of_squares = 0;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    if (corners_of[v].empty() || !NormalsAgree(corners_of[v], kSmoothAngleDeg)) continue;
+    const Eigen::Vector3d normal = MeanNormal(corners_of[v]);
+    double angle = EIGEN_PI;
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d axis = frames[v].col(k);
+      angle = std::min(angle, std::atan2(axis.cross(normal).norm(), std::abs(axis.dot(normal))));
+    }
+    angle *= 180 / EIGEN_PI;
+    sum_of_squares += angle * angle;
+    quality->boundary_max_deg = std::max(quality->boundary_max_deg, angle);
+    ++quality->smooth_boundary_vertices;
+  }
+  if (quality->smooth_boundary_vertices > 0) {
+    quality->boundary_rms_deg = std::sqrt(sum_of_squares / static_cast<double>(quality->smooth_boundary_vertices));
+  }
+}
+
+void CheckFrames(const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& frames) {
+  if (frames.size() == mesh.points.size()) return;
+  std::ostringstream message;
+  message << "MeasureField: " << frames.size() << " frames for " << mesh.points.size() << " points";
+  throw std::invalid_argument(message.str());
+}
+
+}  // namespace
+
+FieldQuality MeasureField(const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& frames) {
+  CheckFrames(mesh, frames);
+  return MeasureField(mesh, frames, FindSingularTriangles(mesh, frames), BoundaryTriangles(mesh));
+}
+
+FieldQuality MeasureField(const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& frames,
+                          const std::vector<SingularTriangle>& singular_triangles,
+                          const std::vector<std::array<int, 3>>& boundary_triangles) {
+  CheckFrames(mesh, frames);
+  FieldQuality quality;
+  for (const auto& [a, b] : MeshEdges(mesh)) {
+    ++quality.edges;
+    quality.energy3 += FrameDifference<3>(frames[a], frames[b]);
+    quality.energy4 += FrameDifference<4>(frames[a], frames[b]);
+  }
+  for (const SingularTriangle& triangle : singular_triangles) {
+    ++quality.singular_triangles;
+    ++quality.singular_triangles_of_type[static_cast<std::size_t>(triangle.type)];
+  }
+  MeasureBoundary(mesh, frames, boundary_triangles, &quality);
+  return quality;
+}
+
+}  // namespace octupole

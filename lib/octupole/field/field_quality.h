@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "octupole/mesh/tet_mesh.h"
+#include "octupole/singularities/singular_triangles.h"
+
+namespace octupole {
+
+/// What can be said of a field of frames on a tet mesh without knowing how it was computed. The same numbers for any
+/// method and any degree, so fields can be compared by them.
+struct FieldQuality {
+  std::size_t edges = 0;
+  /// Sum over the mesh's edges of FrameDifference<3> and FrameDifference<4>.
+  double energy3 = 0;
+  double energy4 = 0;
+  /// The angle in degrees between the angle-weighted normal and the nearest axis, over the smooth boundary vertices:
+  /// those at which all normals of incident boundary faces are within 35 degrees of each other and no such face has
+  /// zero area.
+  double boundary_rms_deg = 0;
+  double boundary_max_deg = 0;
+  std::size_t smooth_boundary_vertices = 0;
+  /// Triangles that a singular curve crosses, see FindSingularTriangles: all, and those of each TurnType.
+  std::size_t singular_triangles = 0;
+  std::array<std::size_t, 5> singular_triangles_of_type = {};
+};
+
+/// \param frames one rotation per point, its columns the axes.
+/// \throw std::invalid_argument unless there is one frame per point.
+FieldQuality MeasureField(const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& frames);
+
+/// The same for a caller who has the singular triangles (FindSingularTriangles) and BoundaryTriangles already.
+FieldQuality MeasureField(const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& frames,
+                          const std::vector<SingularTriangle>& singular_triangles,
+                          const std::vector<std::array<int, 3>>& boundary_triangles);
+
+}  // namespace octupole

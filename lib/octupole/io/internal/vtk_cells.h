@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "octupole/io/internal/mesh_readers.h"
+
+namespace octupole::internal {
+
+/// The cells of an unstructured grid as both kinds of VTK files have them.
+struct VtkCells {
+  std::vector<int> types;
+  /// Where each cell ends in the connectivity.
+  std::vector<std::int64_t> ends;
+  std::vector<std::int64_t> connectivity;
+  /// One region tag per cell, or empty.
+  std::vector<int> regions;
+};
+
+/// Adds the tetrahedra among the cells and what the others mark: lines and points are features. The
+/// connectivity counts from `first_point`, behind which all points of the mesh are the cells'.
+///
+/// `fail` throws a message about an entry of the connectivity.
+void AddVtkCells(const VtkCells& cells, std::size_t first_point,
+                 const std::function<void(std::int64_t entry, const std::string& message)>& fail, ParsedMesh* result);
+
+}  // namespace octupole::internal

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "octupole/field/field_graph.h"
+#include "octupole/harmonics/harmonics.h"
+#include "octupole/solvers/field_problem.h"
+#include "octupole/solvers/field_solution.h"
+
+namespace octupole {
+
+/// The field of a graph, quickly: minimises the energy of BuildFieldProblem, with hard alignments, as one function
+/// (FieldEnergy) by MinimizeLbfgs, from coarse to fine, and finishes on frames.
+///
+///  1. The graph is coarsened again and again (CoarsenGraph).
+///  2. On one of the coarse graphs several starts are tried: random ones, one that comes from the coarsest graph, and
+///     the linear one, that of SolveRaySokolov. The lowest after polishing wins.
+///  3. The field is copied to the next finer graph and minimised there, until the finest.
+///  4. It is projected to frames, which are polished: their FrameDifference<4>, summed over the edges, is minimised
+///     (FrameEnergy).
+///
+/// The result's energy is that of its coefficients (cost_weight.h); its frames are the polished, and keep to the
+/// alignments to rounding.
+///
+/// Any graph will do: disconnected, without any alignment, with isolated vertices. The result does not depend on the
+/// number of threads.
+///
+/// \throw std::invalid_argument when the graph is malformed (see CheckFieldGraph), a weight is negative or not finite,
+/// or
+///     num_threads is below 1.
+template <int kDegree>
+FieldSolution<kDegree> SolveFast(const FieldGraph& graph, const EnergyWeights& weights,
+                                 const MinimizerOptions& options = {});
+
+/// The same from a field of the caller's, one harmonic per vertex, on the finest graph only.
+/// \throw std::invalid_argument also when `start` has another size or a value that is not finite.
+template <int kDegree>
+FieldSolution<kDegree> SolveFastFrom(const FieldGraph& graph, const EnergyWeights& weights,
+                                     const std::vector<Harmonic<kDegree>>& start, const MinimizerOptions& options = {});
+
+}  // namespace octupole

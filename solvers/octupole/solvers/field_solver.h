@@ -1,0 +1,80 @@
+#pragma once
+
+#include <ceres/solver.h>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "octupole/field/boundary_alignment.h"
+#include "octupole/harmonics/harmonics.h"
+#include "octupole/mesh/tet_mesh.h"
+#include "octupole/mesh/triangle_mesh.h"
+#include "octupole/solvers/field_problem.h"
+#include "octupole/solvers/field_solution.h"
+
+namespace octupole {
+
+/// How a field is found. All but the first are the classics of degree 4, to compare with; their headers cite them.
+enum class FieldMethod {
+  /// The penalised energy of BuildFieldProblem, by SolveFast or by Ceres: of octupoles in degree 3; in degree 4 it is
+  /// the counterpart with the implicit equations of octahedral harmonics as penalty (Yu. Nesterenko, *On spherical
+  /// harmonics possessing octahedral symmetry*, arXiv 2012.12614, 2020).
+  kPenalty,
+  /// ray_sokolov.h
+  kRaySokolov,
+  /// huang.h
+  kHuang,
+  /// mbo.h
+  kMbo,
+};
+
+template <int kDegree>
+struct FieldOptions {
+  FieldMethod method = FieldMethod::kPenalty;
+  /// See AlignToSurface; of a tet mesh no boundary is open.
+  double feature_angle_deg = 40;
+  OpenBoundary open_boundary = OpenBoundary::kAligned;
+  /// Seed of the random starts, which are used when `start` is empty.
+  std::uint32_t seed = 0;
+  /// How our own methods minimise; the seed is that above.
+  MinimizerOptions minimizer;
+
+  // The penalty method only.
+  EnergyWeights weights;
+  /// Starting values, one per point.
+  std::vector<Harmonic<kDegree>> start;
+  /// If given, Ceres minimises instead of SolveFast, on residual blocks; see MakeSolverOptions. Its iteration callbacks
+  /// go in here.
+  std::optional<ceres::Solver::Options> solver;
+};
+
+/// The solution with one harmonic and one frame per point. The penalty method minimises over harmonics: frames are the
+/// nearest to them, from SolveFast also polished. The classics minimise over frames: harmonics are those of the frames.
+template <int kDegree>
+struct Field : FieldSolution<kDegree> {
+  BoundaryAlignment alignment;
+  /// Wall-clock seconds before the minimisation, of it and after it. Our own methods make the frames as they minimise.
+  double setup_seconds = 0;
+  double solve_seconds = 0;
+  double project_seconds = 0;
+  /// As Ceres left it, if Ceres was asked.
+  std::optional<ceres::Solver::Summary> ceres_summary;
+};
+
+/// A boundary-aligned frame field on a tet mesh: AlignToBoundary, MakeFieldGraph and the method in a row, with Ceres
+/// RandomField, BuildFieldProblem, ceres::Solve and NearestFrame. Compose them yourself for anything else.
+/// The same seed gives the same field on the same machine, with Ceres on one thread.
+///
+/// \throw std::invalid_argument when the mesh cannot carry a field (see CheckTetMesh), an option is out of range, or a
+/// start or solver is given to a method that takes none.
+template <int kDegree>
+Field<kDegree> SolveField(const TetMesh& mesh, const FieldOptions<kDegree>& options = {});
+
+/// The same on a surface, by AlignToSurface: frames with the surface's normal as one axis, so a cross field (see
+/// CrossField). The smoothness of frames in space is extrinsic: the field bends with the surface.
+/// \throw std::invalid_argument likewise (see CheckTriangleMesh).
+template <int kDegree>
+Field<kDegree> SolveField(const TriangleMesh& surface, const FieldOptions<kDegree>& options = {});
+
+}  // namespace octupole

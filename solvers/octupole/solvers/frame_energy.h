@@ -1,0 +1,77 @@
+#pragma once
+
+#include <ceres/first_order_function.h>
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "octupole/field/field_graph.h"
+#include "octupole/harmonics/harmonics.h"
+#include "octupole/solvers/workers.h"
+
+namespace octupole {
+namespace internal {
+template <int kDegree>
+struct HarmonicRow;
+struct NeighbourLists;
+}  // namespace internal
+
+/// The smoothness of frames: half of the sum over edges of weight * FrameDifference<4>(A, B), and its gradient,
+/// computed by one sweep over the vertices from the frames' unit harmonics.
+///
+/// Its parameters turn the given frames. A free vertex has three, x, and the frame A C(x/2): C(r) is the rotation of
+/// the quaternion (1, r) (Cayley), by 2 atan |r| about r; so x is nearly the rotation vector and no angle is singular
+/// but half a turn. An axis leaves one, the angle about it. A prescribed frame has none. All zero gives the given
+/// frames.
+///
+/// With soft alignments every vertex has three parameters, whatever its alignment, and each aligned one adds half of
+/// soft_weight times the squared distance from its harmonic to those of degree 4 that the alignment allows: to
+/// AlignedSubspace<4> of an axis, as AlignmentCost, and to the harmonic of a prescribed frame.
+class FrameEnergy final : public ceres::FirstOrderFunction {
+ public:
+  /// \param frames one per vertex, which keep to the alignments: the third column along an axis (see
+  /// NearestAlignedFrame).
+  ///     `workers` must outlive the function.
+  /// \param soft_weight if given, alignments are soft, and the frames need not keep to them.
+  /// \throw std::invalid_argument when the graph is malformed (see CheckFieldGraph), there are not as many frames as
+  /// vertices, or soft_weight is negative or not finite.
+  FrameEnergy(const FieldGraph& graph, const std::vector<Eigen::Matrix3d>& frames, Workers* workers,
+              std::optional<double> soft_weight = std::nullopt);
+  ~FrameEnergy() override;
+
+  int NumParameters() const override { return static_cast<int>(first_parameter_.back()); }
+
+  /// `gradient` may be null. Not to be called by two threads at once.
+  bool Evaluate(const double* parameters, double* cost, double* gradient) const override;
+
+  /// The turned frames, one per vertex.
+  /// \throw std::invalid_argument unless there are NumParameters() parameters.
+  std::vector<Eigen::Matrix3d> FramesOf(const std::vector<double>& parameters) const;
+
+ private:
+  struct SoftAlignment {
+    Hexadecapole offset;
+    Eigen::Matrix<double, kDimension<4>, 2> basis;
+  };
+
+  Eigen::Matrix3d FrameOf(const double* parameters, std::size_t v) const;
+  void Expand(const double* parameters, std::size_t begin, std::size_t end) const;
+  double AddSoftAlignment(std::size_t v, Eigen::Vector3d* torque) const;
+
+  std::unique_ptr<internal::NeighbourLists> neighbours_;
+  std::vector<Eigen::Matrix3d> frames_;
+  /// Of each vertex, and the end.
+  std::vector<std::size_t> first_parameter_;
+  /// The subspaces of soft alignments, and for each vertex the number of its own or -1.
+  std::vector<SoftAlignment> soft_alignments_;
+  std::vector<int> soft_alignment_of_;
+  double soft_weight_ = 0;
+  Workers* workers_;
+  /// The harmonics of the last evaluation, with a row of zeros for the filling of the neighbour lists.
+  mutable std::vector<internal::HarmonicRow<4>> rows_;
+};
+
+}  // namespace octupole

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <ceres/first_order_function.h>
+#include <ceres/iteration_callback.h>
+#include <ceres/types.h>
+
+#include <Eigen/Core>
+#include <chrono>
+#include <cstdint>
+#include <vector>
+
+#include "octupole/field/field_graph.h"
+#include "octupole/harmonics/harmonics.h"
+#include "octupole/solvers/field_problem.h"
+#include "octupole/solvers/field_solution.h"
+#include "octupole/solvers/workers.h"
+
+// The steps that the methods are made of.
+namespace octupole::internal {
+
+using Frames = std::vector<Eigen::Matrix3d>;
+
+/// Relative decrease per iteration at which frames are polished.
+inline constexpr double kFrameTolerance = 2e-5;
+
+/// Values of the vertices of Reorder(graph, order), in the order of `graph`.
+template <typename Value>
+std::vector<Value> InOriginalOrder(const std::vector<int>& order, const std::vector<Value>& values) {
+  std::vector<Value> result(values.size());
+  for (std::size_t i = 0; i < order.size(); ++i) result[order[i]] = values[i];
+  return result;
+}
+
+/// Runs the minimisations of one solve: counts their iterations against the limit and passes them on to the caller.
+class Minimizer final : public ceres::IterationCallback {
+ public:
+  explicit Minimizer(const MinimizerOptions& options) : options_(options), workers_(options.num_threads) {}
+
+  Workers* workers() { return &workers_; }
+  const std::vector<ceres::IterationSummary>& iterations() const { return iterations_; }
+  /// Of the last minimisation, unless an earlier one was ended by the caller.
+  ceres::TerminationType termination() const { return termination_; }
+
+  /// MinimizeLbfgs on a function of the vertices of `graph`, with half the graph's weights or so in its edges. Returns
+  /// the energy reached, twice the cost.
+  double Minimize(const ceres::FirstOrderFunction& function, const FieldGraph& graph, double tolerance,
+                  std::vector<double>* x);
+
+  /// What a method found on Reorder(graph, order), in the order of the graph.
+  FrameSolution MakeSolution(const std::vector<int>& order, const Frames& frames, double energy,
+                             const ProblemSize& size) const;
+
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override;
+
+ private:
+  bool IsEnded() const { return termination_ == ceres::USER_SUCCESS || termination_ == ceres::USER_FAILURE; }
+
+  const MinimizerOptions& options_;
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Workers workers_;
+  std::vector<ceres::IterationSummary> iterations_;
+  ceres::TerminationType termination_ = ceres::CONVERGENCE;
+};
+
+/// Minimises the field energy from `field`, which becomes the result, and returns the energy.
+template <int kDegree>
+double MinimizeField(const FieldGraph& graph, const EnergyWeights& weights, double tolerance, Minimizer* minimizer,
+                     std::vector<Harmonic<kDegree>>* field);
+
+/// The nearest frames that keep to the alignments.
+template <int kDegree>
+Frames ProjectField(const FieldGraph& graph, const std::vector<Harmonic<kDegree>>& field, Workers* workers);
+
+/// Minimises the FrameEnergy from `frames`, which become the result, and returns the energy.
+double PolishFrames(const FieldGraph& graph, Minimizer* minimizer, Frames* frames);
+
+/// The linear start (see ray_sokolov.h): least squares in degree 4 without penalties, and the nearest frames. Where no
+/// alignment bounds the least squares, the constant comes from a random field.
+Frames LinearFrames(const FieldGraph& graph, double tolerance, std::uint32_t seed, Minimizer* minimizer);
+
+template <int kDegree>
+std::vector<Harmonic<kDegree>> HarmonicsOf(const Frames& frames);
+
+}  // namespace octupole::internal

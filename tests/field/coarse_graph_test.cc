@@ -1,0 +1,105 @@
+#include "octupole/field/coarse_graph.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+#include "octupole/mesh/box_mesh.h"
+#include "random_inputs.h"
+
+namespace octupole {
+namespace {
+
+FieldGraph Box() {
+  const TetMesh mesh = MakeBoxMesh({9, 8, 7}, {9, 8, 7});
+  return MakeFieldGraph(mesh, std::vector<Alignment>(mesh.points.size()));
+}
+
+double TotalWeight(const FieldGraph& graph) {
+  return std::accumulate(graph.edges.begin(), graph.edges.end(), 0.,
+                         [](double sum, const WeightedEdge& edge) { return sum + edge.weight; });
+}
+
+TEST(BreadthFirstOrder, KeepsComponentsTogetherAndNeighboursClose) {
+  // Two paths, 0 2 4 6 and 1 3 5, and a vertex alone.
+  const FieldGraph graph = {{{4, 6, 1}, {0, 2, 1}, {2, 4, 1}, {3, 5, 1}, {1, 3, 1}}, std::vector<Alignment>(8)};
+  EXPECT_EQ(BreadthFirstOrder(graph), std::vector<int>({0, 2, 4, 6, 1, 3, 5, 7}));
+}
+
+TEST(Reorder, RenumbersVertices) {
+  const FieldGraph graph = {{{0, 1, 2}}, {Alignment(), Alignment::Axis({1, 0, 0}), Alignment()}};
+  const FieldGraph reordered = Reorder(graph, {2, 1, 0});
+  ASSERT_EQ(reordered.edges.size(), 1u);
+  EXPECT_EQ(reordered.edges[0].a, 2);
+  EXPECT_EQ(reordered.edges[0].b, 1);
+  EXPECT_EQ(reordered.edges[0].weight, 2);
+  EXPECT_EQ(reordered.alignments[1].kind(), AlignmentKind::kAxis);
+}
+
+TEST(CoarsenGraph, MakesConnectedClustersAndAddsTheirEdgesUp) {
+  FieldGraph graph = Box();
+  std::mt19937 generator(1);
+  for (WeightedEdge& edge : graph.edges) edge.weight = 1 + RandomDirection(&generator).x() / 2;
+  const CoarseGraph coarse = CoarsenGraph(graph);
+  EXPECT_NO_THROW(CheckFieldGraph(coarse.graph));
+  const std::size_t num_clusters = coarse.graph.num_vertices();
+  EXPECT_GT(num_clusters, graph.num_vertices() / 14);
+  EXPECT_LT(num_clusters, graph.num_vertices() / 5);
+
+  // Merging along the edges within clusters leaves one tree per cluster.
+  std::vector<int> parent(graph.num_vertices());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int v) {
+    while (parent[v] != v) v = parent[v];
+    return v;
+  };
+  double weight_between = 0;
+  for (const WeightedEdge& edge : graph.edges) {
+    if (coarse.cluster_of[edge.a] == coarse.cluster_of[edge.b]) {
+      parent[root(edge.a)] = root(edge.b);
+    } else {
+      weight_between += edge.weight;
+    }
+  }
+  std::size_t num_trees = 0;
+  for (int v = 0; v < static_cast<int>(graph.num_vertices()); ++v) num_trees += root(v) == v;
+  EXPECT_EQ(num_trees, num_clusters);
+  EXPECT_NEAR(TotalWeight(coarse.graph), weight_between, 1e-9 * weight_between);
+}
+
+TEST(CoarsenGraph, KeepsTheStrongestAlignmentThatAgreesBest) {
+  // A star of seven around vertex 0.
+  FieldGraph graph = {{}, std::vector<Alignment>(7)};
+  for (int v = 1; v < 7; ++v) graph.edges.push_back({0, v, 1});
+  graph.alignments[1] = Alignment::Axis({1, 0, 0});
+  graph.alignments[2] = Alignment::Axis({0, 1, 0.1});
+  graph.alignments[3] = Alignment::Axis({0, -1, 0});
+  CoarseGraph coarse = CoarsenGraph(graph);
+  ASSERT_EQ(coarse.graph.num_vertices(), 1u);
+  EXPECT_TRUE(coarse.graph.edges.empty());
+  EXPECT_EQ(coarse.graph.alignments[0].kind(), AlignmentKind::kAxis);
+  EXPECT_GT(std::abs(coarse.graph.alignments[0].frame()(1, 2)), 0.99);
+
+  graph.alignments[5] = Alignment::Frame(Eigen::Matrix3d::Identity());
+  coarse = CoarsenGraph(graph);
+  EXPECT_EQ(coarse.graph.alignments[0].kind(), AlignmentKind::kFrame);
+}
+
+TEST(CoarsenGraph, LeavesIsolatedVerticesAndComponentsApart) {
+  EXPECT_EQ(CoarsenGraph({}).graph.num_vertices(), 0u);
+  const FieldGraph graph = {{{0, 1, 1}, {3, 4, 1}, {4, 5, 1}}, std::vector<Alignment>(6)};
+  const CoarseGraph coarse = CoarsenGraph(graph);
+  EXPECT_EQ(coarse.cluster_of, std::vector<int>({0, 0, 1, 2, 2, 2}));
+  EXPECT_TRUE(coarse.graph.edges.empty());
+}
+
+TEST(CoarsenGraph, RefusesABadGraph) {
+  EXPECT_THROW(CoarsenGraph({{{0, 2, 1}}, std::vector<Alignment>(2)}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace octupole

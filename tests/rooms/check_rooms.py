@@ -1,0 +1,99 @@
+#!/usr/bin/python3
+"""Holds the arrows of docs/architecture.md against the #include lines of a source tree.
+
+usage: check_rooms.py ROOT
+
+Prints each line that breaks a rule, and then exits 1:
+- a room includes only itself and the rooms that it may use;
+- what lies in a folder internal/ is included by its own layer only, and by no public header;
+- a library is included only where the table below allows it.
+"""
+
+import pathlib
+import re
+import sys
+
+LAYERS = ["lib", "cost_functions", "solvers"]
+
+# Room -> the rooms it may use. A room below never names one above.
+MATHEMATICS = ["harmonics"]
+SHAPES = ["mesh", "frames"] + MATHEMATICS
+ROOMS = {
+    "harmonics": [],
+    "frames": MATHEMATICS,
+    "mesh": [],
+    "singularities": SHAPES,
+    "field": ["singularities"] + SHAPES,
+    "io": ["field", "singularities"] + SHAPES,
+    "adaptors": ["io", "field", "singularities"] + SHAPES,
+    "cost_functions": ["field"] + MATHEMATICS,
+    "solvers": ["cost_functions", "field", "singularities"] + SHAPES,
+}
+
+# Library -> the rooms that may include it; all others are free to use Eigen and the standard library only.
+LIBRARIES = {
+    "ceres": ["cost_functions", "solvers"],
+    "gmsh": ["adaptors"],
+    "OpenMesh": ["adaptors"],
+    "pugixml": ["io"],
+    "zlib": ["io"],
+}
+
+INCLUDE = re.compile(r'\s*#\s*include\s*[<"]([^>"]+)[>"]')
+
+
+def problem_of(room, layer, is_public, target, layer_of):
+    """What is wrong with a file of `room` including `target`, or None."""
+    parts = target.split("/")
+    if parts[0] != "octupole":
+        library = re.split(r"[./]", parts[0])[0]
+        if library in LIBRARIES and room not in LIBRARIES[library]:
+            return f"only {', '.join(LIBRARIES[library])} may use {library}"
+        return None
+    if len(parts) < 3:
+        return None  # octupole/version.h stands above no room and below all
+    if parts[1] not in ROOMS:
+        return f"there is no room {parts[1]}"
+    if parts[1] != room and parts[1] not in ROOMS[room]:
+        return f"room {room} may not use {parts[1]}"
+    if parts[2] == "internal":
+        if is_public:
+            return "a public header may not include an internal one"
+        if layer_of[parts[1]] != layer:
+            return f"internal to the layer {layer_of[parts[1]]}"
+    return None
+
+
+def check(root):
+    """The broken lines of the tree, each as file:line: what."""
+    folders = [(layer, folder) for layer in LAYERS for folder in sorted((root / layer / "octupole").iterdir())
+               if folder.is_dir()]
+    layer_of = {folder.name: layer for layer, folder in folders}
+    problems = [f"{name}: a room without a folder" for name in ROOMS if name not in layer_of]
+    for layer, folder in folders:
+        if folder.name not in ROOMS:
+            problems.append(f"{folder}: a folder that is no room")
+            continue
+        for file in sorted(folder.rglob("*")):
+            if file.suffix not in (".h", ".cc"):
+                continue
+            is_public = file.suffix == ".h" and file.parent == folder
+            for number, line in enumerate(file.read_text().splitlines(), 1):
+                match = INCLUDE.match(line)
+                problem = match and problem_of(folder.name, layer, is_public, match.group(1), layer_of)
+                if problem:
+                    problems.append(f"{file}:{number}: {problem}: {line.strip()}")
+    return problems
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit("usage: check_rooms.py ROOT")
+    problems = check(pathlib.Path(sys.argv[1]))
+    for problem in problems:
+        print(problem)
+    sys.exit(1 if problems else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,109 @@
+#include "octupole/solvers/fast_solver.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "method_checks.h"
+#include "octupole/solvers/field_solver.h"
+#include "octupole/solvers/solver_presets.h"
+
+namespace octupole {
+namespace {
+
+template <int kDegree>
+void ExpectField(const FieldSolution<kDegree>& field, const FieldGraph& graph) {
+  ExpectFrames(field, graph);
+  ASSERT_EQ(field.coefficients.size(), graph.num_vertices());
+  for (const Harmonic<kDegree>& h : field.coefficients) EXPECT_TRUE(h.allFinite());
+}
+
+template <typename Degree>
+class FastSolverTest : public testing::Test {};
+using Degrees = testing::Types<std::integral_constant<int, 3>, std::integral_constant<int, 4>>;
+TYPED_TEST_SUITE(FastSolverTest, Degrees);
+
+// More vertices than starts are tried on, so that the result goes through a hierarchy.
+TYPED_TEST(FastSolverTest, FindsTheConstantFieldOfABoxFrom20Seeds) {
+  constexpr int l = TypeParam::value;
+  const FieldGraph graph = GraphOf(MakeBoxMesh({14, 12, 13}, {14, 12, 13}));
+  for (std::uint32_t seed = 0; seed < 20; ++seed) {
+    MinimizerOptions options;
+    options.seed = seed;
+    const FieldSolution<l> field = SolveFast<l>(graph, {}, options);
+    EXPECT_EQ(field.termination, ceres::CONVERGENCE);
+    EXPECT_LT(field.energy, 1e-6 * static_cast<double>(graph.edges.size())) << "seed " << seed;
+    EXPECT_LT(FrameEnergyOf(graph, field.frames), 1e-8 * static_cast<double>(graph.edges.size())) << "seed " << seed;
+  }
+}
+
+TYPED_TEST(FastSolverTest, KeepsToACurvedBoundary) {
+  constexpr int l = TypeParam::value;
+  const FieldGraph graph = GraphOf(MakeBallMesh(14));
+  const FieldSolution<l> field = SolveFast<l>(graph, {});
+  EXPECT_EQ(field.termination, ceres::CONVERGENCE);
+  ExpectField<l>(field, graph);
+  EXPECT_GT(field.energy, 0);
+}
+
+TYPED_TEST(FastSolverTest, TakesAnyGraph) {
+  constexpr int l = TypeParam::value;
+  for (const FieldGraph& graph : AnyGraphs()) {
+    const FieldSolution<l> field = SolveFast<l>(graph, {});
+    EXPECT_EQ(field.termination, ceres::CONVERGENCE) << graph.num_vertices();
+    ExpectField<l>(field, graph);
+    EXPECT_LT(FrameEnergyOf(graph, field.frames), 1e-6 * static_cast<double>(graph.edges.size() + 1));
+  }
+}
+
+TYPED_TEST(FastSolverTest, RepeatsOnAnyNumberOfThreads) {
+  constexpr int l = TypeParam::value;
+  const FieldGraph graph = GraphOf(MakeBallMesh(16));
+  MinimizerOptions options;
+  options.seed = 5;
+  options.max_iterations = 120;
+  const FieldSolution<l> one = SolveFast<l>(graph, {}, options);
+  EXPECT_EQ(SolveFast<l>(graph, {}, options).frames, one.frames);
+  options.num_threads = 2;
+  const FieldSolution<l> two = SolveFast<l>(graph, {}, options);
+  EXPECT_EQ(two.coefficients, one.coefficients);
+  EXPECT_EQ(two.frames, one.frames);
+  EXPECT_EQ(two.energy, one.energy);
+}
+
+TYPED_TEST(FastSolverTest, StopsWhenItIsToldTo) {
+  constexpr int l = TypeParam::value;
+  const FieldGraph graph = GraphOf(MakeBallMesh(14));
+  ExpectStops([](const auto& g, const auto& options) { return SolveFast<l>(g, {}, options); }, graph);
+}
+
+TYPED_TEST(FastSolverTest, ContinuesFromAField) {
+  constexpr int l = TypeParam::value;
+  const FieldGraph graph = GraphOf(MakeBallMesh(8));
+  const FieldSolution<l> field = SolveFast<l>(graph, {});
+  const FieldSolution<l> again = SolveFastFrom<l>(graph, {}, field.coefficients);
+  EXPECT_LE(again.energy, field.energy);
+  EXPECT_LT(again.iterations.size(), field.iterations.size() / 2);
+  EXPECT_THROW(SolveFastFrom<l>(graph, {}, {}), std::invalid_argument);
+}
+
+// The road of residual blocks, from a random start and to convergence, has nothing better to offer.
+TYPED_TEST(FastSolverTest, IsNotWorseThanCeres) {
+  constexpr int l = TypeParam::value;
+  for (const TetMesh& mesh : {MakeBallMesh(6), MakeBallMesh(9)}) {
+    FieldOptions<l> options;
+    const Field<l> fast = SolveField<l>(mesh, options);
+    options.solver = MakeSolverOptions(SolverPreset::kLbfgs);
+    const Field<l> slow = SolveField<l>(mesh, options);
+    const FieldGraph graph = GraphOf(mesh);
+    EXPECT_LE(FrameEnergyOf(graph, fast.frames), 1.002 * FrameEnergyOf(graph, slow.frames));
+  }
+}
+
+TEST(SolveFast, RefusesBadInput) {
+  ExpectRefusals([](const auto& graph, const auto& options) { return SolveFast<3>(graph, {}, options); });
+  EXPECT_THROW(SolveFast<3>(GraphOf(MakeBoxMesh({1, 1, 1}, {1, 1, 1})), {-1, 0}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace octupole
