@@ -26,8 +26,7 @@ function(octupole_add_library component)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${component} POSITION_INDEPENDENT_CODE ON
                         VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   target_compile_features(${target} ${scope} cxx_std_17)
-  target_sources(${target} ${scope} FILE_SET HEADERS BASE_DIRS ${CMAKE_CURRENT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}
-                 FILES ${arg_HEADERS})
+  target_sources(${target} ${scope} FILE_SET HEADERS BASE_DIRS ${CMAKE_CURRENT_SOURCE_DIR} FILES ${arg_HEADERS})
   target_link_libraries(${target} ${scope} ${arg_LINK})
   if(arg_PRECOMPILE AND PROJECT_IS_TOP_LEVEL)  # the packaging test builds without, so that no include goes missing
     target_precompile_headers(${target} PRIVATE ${arg_PRECOMPILE})

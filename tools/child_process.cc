@@ -9,6 +9,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "interruption.h"
+
 namespace octupole {
 namespace {
 
@@ -42,9 +44,11 @@ ChildOutcome RunSelf(const std::vector<std::string>& arguments, const std::files
   rusage usage = {};
   pid_t ended = -1;
   if (child > 0) {
+    PassInterruptionsTo(child);
     do {
       ended = wait4(child, &status, 0, &usage);
     } while (ended < 0 && errno == EINTR);
+    PassInterruptionsTo(0);
   }
   if (ended < 0) throw std::runtime_error(std::string("cannot start a process: ") + std::strerror(errno));
   ChildOutcome outcome;

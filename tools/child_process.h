@@ -17,7 +17,7 @@ struct ChildOutcome {
 };
 
 /// Runs this very program with other arguments and waits for it. Its output is dropped, its error messages go to a
-/// file. \throw std::runtime_error when it cannot be started.
+/// file. What interrupts us ends it, too. \throw std::runtime_error when it cannot be started.
 ChildOutcome RunSelf(const std::vector<std::string>& arguments, const std::filesystem::path& error_file);
 
 }  // namespace octupole

@@ -21,7 +21,9 @@
 #include "child_process.h"
 #include "interruption.h"
 #include "octupole/io/atomic_file.h"
+#include "octupole/io/mesh_io.h"
 #include "output_files.h"
+#include "solver_arguments.h"
 
 namespace octupole {
 namespace {
@@ -360,7 +362,11 @@ std::optional<std::string> CommonError(const Json& rows) {
 }
 
 void RunCompare(const Arguments& arguments) {
-  for (const path* file : {&arguments.csv, &arguments.json, &arguments.trace}) CheckFolderOf(*file);
+  std::vector<path> inputs;
+  for (const path& mesh : arguments.meshes) {
+    for (path& file : TetMeshFiles(mesh)) inputs.push_back(std::move(file));
+  }
+  CheckOutputs(inputs, {{"--csv", arguments.csv}, {"--json", arguments.json}, {"--trace", arguments.trace}});
   std::vector<Configuration> configurations;
   for (const Configuration& configuration : AllConfigurations()) {
     const bool is_named = std::count(arguments.methods.begin(), arguments.methods.end(), configuration.name) > 0;
@@ -401,7 +407,8 @@ void RunCompare(const Arguments& arguments) {
         {"mesh", "method", "iterations", "cpu_seconds", "energy3", "energy4", "energy4_aligned", "boundary_rms_deg"},
         trace);
   }
-  if (guard.IsInterrupted()) throw std::runtime_error("interrupted; what was compared until then is complete");
+  if (guard.IsInterrupted()) std::fprintf(stderr, "octupole: interrupted; what was compared until then is complete\n");
+  guard.ExitIfInterrupted();
   // With one mesh alone, its error is all there is to say.
   if (arguments.meshes.size() == 1 && !mesh_errors.empty()) throw std::runtime_error(mesh_errors[0]);
   for (const std::string& error : mesh_errors) std::fprintf(stderr, "octupole: %s\n", error.c_str());
@@ -430,6 +437,7 @@ void AddCompareCommand(CLI::App* app) {
       ->add_option("--methods", arguments->methods,
                    "Comma-separated, of " + names + " (all these by default); on request only " + on_request)
       ->delimiter(',')
+      ->allow_extra_args(false)  // what follows is a mesh
       ->check(CLI::IsMember(all).description(""))
       ->option_text("A,B,...");
   command->add_option("--repeat", arguments->repeat, "Run all methods in turn so often, and give medians")
@@ -443,7 +451,7 @@ void AddCompareCommand(CLI::App* app) {
       ->check(CLI::Range(1, 1024))
       ->option_text("N [1]");
   command->add_option("--max-iterations", arguments->max_iterations, "Of each run")
-      ->check(CLI::NonNegativeNumber)
+      ->check(AtLeastZero())
       ->option_text("N");
   command->add_option("--csv", arguments->csv, "All figures, one line a method and mesh")->option_text("F.csv");
   command->add_option("--json", arguments->json, "The same as JSON")->option_text("F.json");

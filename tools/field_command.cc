@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "activity.h"
 #include "interruption.h"
 #include "octupole/field/aligned_frame.h"
 #include "octupole/field/field_quality.h"
@@ -110,14 +111,17 @@ void PrintSummary(const Arguments& arguments, const nlohmann::ordered_json& repo
 
 template <int kDegree>
 void RunField(const Arguments& arguments) {
-  for (const auto* file :
-       {&arguments.output, &arguments.report, &arguments.fra, &arguments.quaternions, &arguments.singularities}) {
-    CheckFolderOf(*file);
-  }
+  CheckOutputs(TetMeshFiles(arguments.mesh), {{"--output", arguments.output, {".vtu"}},
+                                              {"--singularities", arguments.singularities, {".vtu"}},
+                                              {"--report", arguments.report},
+                                              {"--fra", arguments.fra},
+                                              {"--quaternions", arguments.quaternions}});
   const InterruptionGuard guard;
   Stopwatch stopwatch;
   std::vector<std::string> warnings;
+  SetActivity("reading " + arguments.mesh.string());
   TetMesh mesh = LoadMesh(arguments, &warnings);
+  SetActivity("solving", mesh.points.size());
   for (std::string& warning : MeshWarnings(InspectMesh(mesh))) warnings.push_back(std::move(warning));
   const double read_seconds = stopwatch.Lap();
   if (!arguments.solver.quiet) PrintWarnings(arguments.mesh, warnings);
@@ -139,6 +143,7 @@ void RunField(const Arguments& arguments) {
     throw std::runtime_error(arguments.mesh.string() + ": the solver failed: " +
                              (field.ceres_summary ? field.ceres_summary->message : "the energy is not finite"));
   }
+  SetActivity("measuring and writing the field", mesh.points.size());
   const auto boundary = BoundaryTriangles(mesh);
   const auto singular_triangles = FindSingularTriangles(mesh, field.frames);
   const FieldQuality quality = MeasureField(mesh, field.frames, singular_triangles, boundary);
@@ -201,6 +206,7 @@ void RunField(const Arguments& arguments) {
                  arguments.output.string().c_str());
   }
   if (!arguments.solver.quiet) PrintSummary(arguments, report);
+  guard.ExitIfInterrupted();
 }
 
 }  // namespace
@@ -214,7 +220,7 @@ void AddFieldCommand(CLI::App* app) {
       ->required()
       ->option_text("MESH");
   command->add_option("--size", arguments->size, "Of the tets that a CAD model (STEP, IGES, BREP) is meshed with")
-      ->check(CLI::PositiveNumber)
+      ->check(AboveZero())
       ->option_text("H");
   command->add_option("-o,--output", arguments->output, "The field, for ParaView; by default MESH_field.vtu, here")
       ->option_text("F.vtu");

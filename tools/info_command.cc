@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "activity.h"
 #include "octupole/field/boundary_alignment.h"
 #include "octupole/io/mesh_io.h"
 #include "octupole/mesh/mesh_inspection.h"
@@ -69,7 +70,9 @@ ordered_json DescribeFeatures(const TetMesh& mesh, const std::vector<std::array<
 
 ordered_json Describe(const std::filesystem::path& path) {
   std::vector<std::string> warnings;
+  SetActivity("reading " + path.string());
   const TetMesh mesh = ReadTetMesh(path, &warnings);
+  SetActivity("looking at the mesh", mesh.points.size());
   const MeshInspection inspection = InspectMesh(mesh);
   for (std::string& warning : MeshWarnings(inspection)) warnings.push_back(std::move(warning));
   Eigen::AlignedBox3d box;
@@ -149,7 +152,7 @@ void AddInfoCommand(CLI::App* app) {
   command->add_option("--report", arguments->report, "The same as JSON")->option_text("F.json");
   command->add_flag("--quiet", arguments->quiet, "Print errors only");
   command->callback([arguments] {
-    CheckFolderOf(arguments->report);
+    CheckOutputs(TetMeshFiles(arguments->mesh), {{"--report", arguments->report}});
     const ordered_json info = Describe(arguments->mesh);
     WriteReport(arguments->report, info);
     if (!arguments->quiet) Print(info);

@@ -1,19 +1,58 @@
 #include "output_files.h"
 
+#include <algorithm>
 #include <ostream>
 #include <stdexcept>
+#include <system_error>
 
 #include "octupole/io/atomic_file.h"
 
 namespace octupole {
+namespace {
 
-void CheckFolderOf(const std::filesystem::path& file) {
-  const std::filesystem::path folder = file.parent_path();
-  if (folder.empty() || std::filesystem::is_directory(folder)) return;
-  throw std::runtime_error(file.string() + ": there is no folder " + folder.string());
+using std::filesystem::path;
+
+// Whether both names lead to one file, or would, were there any.
+bool AreSame(const path& a, const path& b) {
+  std::error_code ignored;
+  if (std::filesystem::equivalent(a, b, ignored)) return true;
+  const auto place = [&](const path& file) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(FollowLinks(file)), ignored);
+  };
+  return place(a) == place(b);
 }
 
-void WriteReport(const std::filesystem::path& file, const nlohmann::ordered_json& report) {
+void CheckEnding(const OutputFile& output) {
+  const std::vector<std::string>& endings = output.endings;
+  if (endings.empty() || std::count(endings.begin(), endings.end(), output.path.extension()) > 0) return;
+  std::string known;
+  for (const std::string& ending : endings) known += (known.empty() ? "" : " or ") + ending;
+  throw std::runtime_error(output.path.string() + ": " + output.option + " writes " + known + " files only");
+}
+
+}  // namespace
+
+void CheckOutputs(const std::vector<path>& inputs, const std::vector<OutputFile>& outputs) {
+  for (const OutputFile& output : outputs) {
+    if (output.path.empty()) continue;
+    const path folder = output.path.parent_path();
+    if (!folder.empty() && !std::filesystem::is_directory(folder)) {
+      throw std::runtime_error(output.path.string() + ": there is no folder " + folder.string());
+    }
+    CheckEnding(output);
+    for (const path& input : inputs) {
+      if (!AreSame(input, output.path)) continue;
+      throw std::runtime_error(output.path.string() + ": " + output.option + " would overwrite the input " +
+                               input.string());
+    }
+    for (const OutputFile* other = outputs.data(); other != &output; ++other) {
+      if (other->path.empty() || !AreSame(other->path, output.path)) continue;
+      throw std::runtime_error(output.path.string() + ": " + output.option + " and " + other->option + " are one file");
+    }
+  }
+}
+
+void WriteReport(const path& file, const nlohmann::ordered_json& report) {
   if (file.empty()) return;
   WriteFileAtomically(file, [&](std::ostream& stream) { stream << report.dump(2) << "\n"; });
 }

@@ -2,14 +2,26 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "octupole/field/boundary_alignment.h"
 
 namespace octupole {
 
-/// Throws std::runtime_error when there is no folder for a file that is to be written: to be asked before minutes are
-/// spent on solving. The empty path, no file, passes.
-void CheckFolderOf(const std::filesystem::path& file);
+/// A file that a command is to write, if its path is not empty.
+struct OutputFile {
+  /// That names it on the command line.
+  const char* option;
+  std::filesystem::path path;
+  /// If not empty, the path must have one of these.
+  std::vector<std::string> endings = {};
+};
+
+/// To be asked before anything is read and minutes are spent on solving.
+/// \throw std::runtime_error when an output has no folder or an ending that is not known, or is the same file as an
+/// input or another output, by whatever names and links.
+void CheckOutputs(const std::vector<std::filesystem::path>& inputs, const std::vector<OutputFile>& outputs);
 
 /// Writes a report as JSON; nothing where the path is empty.
 void WriteReport(const std::filesystem::path& file, const nlohmann::ordered_json& report);

@@ -1,5 +1,6 @@
 #include "solver_arguments.h"
 
+#include <glog/logging.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -14,7 +15,32 @@ const std::map<std::string, SolverPreset> kSolverOfName = {{"cholesky", SolverPr
                                                            {"cgnr", SolverPreset::kConjugateGradients},
                                                            {"lbfgs", SolverPreset::kLbfgs}};
 
+void LogStep(const StepSummary& step) {
+  if (step.num_vertices == 0) {
+    LOG(INFO) << step.name << ", " << step.cumulative_time_in_seconds << " s";
+    return;
+  }
+  LOG(INFO) << step.name << ": " << step.num_vertices << " vertices, " << step.num_iterations << " iterations, energy "
+            << step.energy << ", " << step.cumulative_time_in_seconds << " s";
+}
+
 }  // namespace
+
+CLI::Validator AtLeastZero() {
+  return {[](const std::string& text) {
+            double number = 0;
+            return CLI::detail::lexical_cast(text, number) && number < 0 ? text + " is less than 0" : std::string();
+          },
+          ""};
+}
+
+CLI::Validator AboveZero() {
+  return {[](const std::string& text) {
+            double number = 1;
+            return CLI::detail::lexical_cast(text, number) && !(number > 0) ? text + " is not above 0" : std::string();
+          },
+          ""};
+}
 
 void AddSolverArguments(CLI::App* command, SolverArguments* arguments) {
   command->add_option("--degree", arguments->degree, "Of the harmonics: 3 (octupoles) or 4")
@@ -28,9 +54,10 @@ void AddSolverArguments(CLI::App* command, SolverArguments* arguments) {
       ->check(CLI::Range(1, 1024))
       ->option_text("N [1]");
   command->add_option("--max-iterations", arguments->max_iterations, "Stop there, converged or not")
-      ->check(CLI::NonNegativeNumber)
+      ->check(AtLeastZero())
       ->option_text("N");
-  command->add_flag("--quiet", arguments->quiet, "Print errors only");
+  CLI::Option* quiet = command->add_flag("--quiet", arguments->quiet, "Print errors only");
+  command->add_flag("--verbose", arguments->verbose, "Log each step of the solver to stderr")->excludes(quiet);
 }
 
 template <int kDegree>
@@ -40,6 +67,10 @@ void SetSolverOptions(const SolverArguments& arguments, ceres::IterationCallback
   options->minimizer.num_threads = arguments.threads;
   if (arguments.max_iterations) options->minimizer.max_iterations = *arguments.max_iterations;
   options->minimizer.callback = callback;
+  if (arguments.verbose) {
+    FLAGS_minloglevel = google::INFO;
+    options->minimizer.step_callback = LogStep;
+  }
   const std::string solver = arguments.solver.value_or("fast");
   if (solver == "fast") return;
   options->solver = MakeSolverOptions(kSolverOfName.at(solver));

@@ -24,9 +24,14 @@ struct SolverArguments {
   int threads = 1;
   std::optional<int> max_iterations;
   bool quiet = false;
+  bool verbose = false;
 };
 
-/// Adds --degree, --solver, --seed, --threads, --max-iterations and --quiet.
+/// For numbers on the command line.
+CLI::Validator AtLeastZero();
+CLI::Validator AboveZero();
+
+/// Adds --degree, --solver, --seed, --threads, --max-iterations, --quiet and --verbose.
 void AddSolverArguments(CLI::App* command, SolverArguments* arguments);
 
 /// Sets what they ask for; `callback`, which must outlive the options, is called at every iteration.

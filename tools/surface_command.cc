@@ -10,7 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "activity.h"
 #include "interruption.h"
+#include "octupole/adaptors/triangle_mesh_reader.h"
 #include "octupole/field/cross_field.h"
 #include "octupole/frames/frame.h"
 #include "octupole/io/vtu_writer.h"
@@ -18,7 +20,6 @@
 #include "octupole/solvers/field_solver.h"
 #include "output_files.h"
 #include "solver_arguments.h"
-#include "surface_reader.h"
 
 namespace octupole {
 namespace {
@@ -33,9 +34,9 @@ struct Arguments {
 };
 
 // The field on the triangles, and on them the face that each was cut from.
-void WriteCrossField(const std::filesystem::path& path, const SurfaceFile& file,
-                     const std::vector<Eigen::Matrix3d>& crosses, const std::vector<Alignment>& alignments,
-                     const std::vector<int>& face_indices) {
+void WriteCrossField(const std::filesystem::path& path, const TriangleMesh& mesh,
+                     const std::vector<int>& faces_of_triangles, const std::vector<Eigen::Matrix3d>& crosses,
+                     const std::vector<Alignment>& alignments, const std::vector<int>& face_indices) {
   std::array<std::vector<Eigen::Vector3d>, 3> axes;
   for (const Eigen::Matrix3d& cross : crosses) {
     for (int k = 0; k < 3; ++k) axes[k].push_back(cross.col(k));
@@ -43,12 +44,11 @@ void WriteCrossField(const std::filesystem::path& path, const SurfaceFile& file,
   std::vector<std::int32_t> kinds;
   for (const Alignment& alignment : alignments) kinds.push_back(static_cast<std::int32_t>(alignment.kind()));
   std::vector<std::int32_t> faces, indices;
-  for (const int face : file.faces) {
+  for (const int face : faces_of_triangles) {
     faces.push_back(face);
     indices.push_back(face_indices[face]);
   }
-  WriteVtu(path, file.mesh.points,
-           {{VtuCellType::kTriangle, file.mesh.triangles[0].data(), file.mesh.triangles.size()}},
+  WriteVtu(path, mesh.points, {{VtuCellType::kTriangle, mesh.triangles[0].data(), mesh.triangles.size()}},
            {{"tangent_u", 3, axes[0][0].data()},
             {"tangent_v", 3, axes[1][0].data()},
             {"normal", 3, axes[2][0].data()},
@@ -86,22 +86,24 @@ void PrintSummary(const Arguments& arguments, const nlohmann::ordered_json& repo
 
 template <int kDegree>
 void RunSurface(const Arguments& arguments) {
-  CheckFolderOf(arguments.output);
-  CheckFolderOf(arguments.report);
+  CheckOutputs({arguments.mesh}, {{"--output", arguments.output, {".vtu"}}, {"--report", arguments.report}});
   const InterruptionGuard guard;
   Stopwatch stopwatch;
   std::vector<std::string> warnings;
-  const SurfaceFile file = ReadSurface(arguments.mesh, &warnings);
+  SetActivity("reading " + arguments.mesh.string());
+  std::vector<int> faces;
+  const TriangleMesh mesh = ReadTriangleMesh(arguments.mesh, &warnings, &faces);
   const double read_seconds = stopwatch.Lap();
   if (!arguments.solver.quiet) PrintWarnings(arguments.mesh, warnings);
 
+  SetActivity("solving", mesh.points.size());
   Progress progress(&guard, arguments.solver.quiet);
   FieldOptions<kDegree> options;
   options.feature_angle_deg = arguments.feature_angle;
   options.open_boundary = arguments.open_boundary;
   SetSolverOptions(arguments.solver, &progress, &options);
   const std::clock_t cpu_start = std::clock();
-  const Field<kDegree> field = SolveField<kDegree>(file.mesh, options);
+  const Field<kDegree> field = SolveField<kDegree>(mesh, options);
   const double cpu_seconds = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
   progress.Finish();
   if (!field.IsUsable()) {
@@ -109,16 +111,15 @@ void RunSurface(const Arguments& arguments) {
                              (field.ceres_summary ? field.ceres_summary->message : "the energy is not finite"));
   }
 
-  const auto edges = MeshEdges(file.mesh);
+  const auto edges = MeshEdges(mesh);
   double energy3 = 0, energy4 = 0;
   for (const auto& [a, b] : edges) {
     energy3 += FrameDifference<3>(field.frames[a], field.frames[b]);
     energy4 += FrameDifference<4>(field.frames[a], field.frames[b]);
   }
-  const SurfaceSingularities singularities =
-      FindSurfaceSingularities(file.mesh.points, file.mesh.triangles, field.frames);
-  std::vector<int> face_indices(file.num_faces, 0);
-  for (std::size_t t = 0; t < file.faces.size(); ++t) face_indices[file.faces[t]] += singularities.quarter_indices[t];
+  const SurfaceSingularities singularities = FindSurfaceSingularities(mesh.points, mesh.triangles, field.frames);
+  std::vector<int> face_indices(faces.back() + 1, 0);
+  for (std::size_t t = 0; t < faces.size(); ++t) face_indices[faces[t]] += singularities.quarter_indices[t];
   int euler_characteristic = 0, quarter_sum = 0;
   bool is_closed = true;
   for (const SurfaceComponent& component : singularities.components) {
@@ -139,16 +140,16 @@ void RunSurface(const Arguments& arguments) {
   }
 
   stopwatch.Lap();
-  WriteCrossField(arguments.output, file, CrossField(file.mesh, field.frames), field.alignment.alignments,
+  WriteCrossField(arguments.output, mesh, faces, CrossField(mesh, field.frames), field.alignment.alignments,
                   face_indices);
   const double write_seconds = stopwatch.Lap();
 
   const nlohmann::ordered_json report = {
       {"mesh", arguments.mesh.string()},
       {"output", arguments.output.string()},
-      {"vertices", file.mesh.points.size()},
-      {"faces", file.num_faces},
-      {"triangles", file.mesh.triangles.size()},
+      {"vertices", mesh.points.size()},
+      {"faces", face_indices.size()},
+      {"triangles", mesh.triangles.size()},
       {"edges", edges.size()},
       {"components", singularities.components.size()},
       {"euler_characteristic", euler_characteristic},
@@ -184,6 +185,7 @@ void RunSurface(const Arguments& arguments) {
                  arguments.output.string().c_str());
   }
   if (!arguments.solver.quiet) PrintSummary(arguments, report);
+  guard.ExitIfInterrupted();
 }
 
 }  // namespace

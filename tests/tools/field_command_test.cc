@@ -13,6 +13,7 @@
 #include "command_line.h"
 #include "corpus.h"
 #include "cylinder_mesh.h"
+#include "octupole/version.h"
 #include "test_files.h"
 
 namespace octupole {
@@ -234,7 +235,10 @@ TEST(FieldCommand, RefusesBadUsage) {
     EXPECT_EQ(outcome.exit_code, 2) << arguments;
     EXPECT_FALSE(outcome.err.empty()) << arguments;
   }
-  EXPECT_EQ(Shell(OCTUPOLE_COMMAND " --version").exit_code, 0);
+  const Outcome version = Shell(OCTUPOLE_COMMAND " --version");
+  EXPECT_EQ(version.exit_code, 0);
+  EXPECT_THAT(version.out, testing::StartsWith(std::string("octupole ") + kVersion + "\n"));
+  for (const char* library : {"Ceres 2.", "Eigen 3.", "zlib 1."}) EXPECT_THAT(version.out, HasSubstr(library));
   EXPECT_THAT(RunField("--help").out, HasSubstr("--feature-angle"));
 }
 
@@ -244,7 +248,7 @@ TEST(FieldCommand, WritesTheFieldReachedWhenInterrupted) {
   const Outcome outcome =
       Shell("timeout --preserve-status --signal=INT 1 " OCTUPOLE_COMMAND " field " + Bracket() +
             " --solver cgnr --output " + Quoted(folder / "field.vtu") + " --report " + Quoted(folder / "report.json"));
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("interrupted"));
   EXPECT_EQ(ReadReport(folder / "report.json")["termination"], "USER_SUCCESS");
   EXPECT_EQ(ReadField(folder / "field.vtu", Bracket())["same_tets"], true);

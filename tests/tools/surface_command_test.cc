@@ -118,7 +118,8 @@ TEST(SurfaceCommand, RefusesWhatIsNoSurface) {
       {"mesh.xyz", "1 2 3", "not one of .obj, .off, .stl and .ply"},
       {"empty.obj", "", "no faces"},
       {"words.obj", "no mesh at all\n", "no faces"},
-      {"nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nv 1 1 1\nf 1 2 3\n", "of 4 vertices only 3 can be read"},
+      {"nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nv 1 1 1\nf 1 2 3\n", "nan.obj:2: nan where a finite number was expected"},
+      {"bare.obj", triangle + "f\n", "bare.obj:4: a face without vertices"},
       {"range.obj", triangle + "f 1 2 4\n", "face 1 has a vertex that is not there"},
       {"range.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "face 1 has a vertex that is not there"},
       {"nan.off", "OFF\n3 1 0\n0 0 0\nnan 0 0\n0 1 0\n3 0 1 2\n", ""},
@@ -136,7 +137,7 @@ TEST(SurfaceCommand, RefusesWhatIsNoSurface) {
     WriteText(folder / bad.name, bad.text);
     const Outcome outcome = RunSurface(Quoted(folder / bad.name) + " --output " + Quoted(folder / "f.vtu"));
     EXPECT_EQ(outcome.exit_code, 1) << bad.name << outcome.out;
-    EXPECT_THAT(outcome.err, testing::StartsWith("octupole: " + (folder / bad.name).string() + ": "));
+    EXPECT_THAT(outcome.err, testing::StartsWith("octupole: " + (folder / bad.name).string() + ":"));
     EXPECT_THAT(outcome.err, HasSubstr(bad.message));
     EXPECT_EQ(outcome.err.find('\n'), outcome.err.size() - 1) << outcome.err;
     EXPECT_EQ(ContentsOf(folder.path()).count("f.vtu"), 0u);

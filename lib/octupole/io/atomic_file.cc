@@ -39,7 +39,19 @@ class TemporaryFile {
 
 }  // namespace
 
+std::filesystem::path FollowLinks(const std::filesystem::path& path) {
+  constexpr int kMaxLinks = 40;  // as in Linux
+  std::filesystem::path target = path;
+  for (int i = 0; std::filesystem::is_symlink(target); ++i) {
+    if (i == kMaxLinks) Fail(path, std::generic_category().message(ELOOP));
+    // A relative link counts from its own folder.
+    target = target.parent_path() / std::filesystem::read_symlink(target);
+  }
+  return target;
+}
+
 void WriteFileAtomically(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write) {
+  const std::filesystem::path target = FollowLinks(path);
   // A rename would replace a device such as /dev/null as well.
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
@@ -49,7 +61,7 @@ void WriteFileAtomically(const std::filesystem::path& path, const std::function<
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
     Fail(path, "not a regular file");
   }
-  const TemporaryFile temporary(path);
+  const TemporaryFile temporary(target);
   errno = 0;
   std::ofstream file(temporary.path(), std::ios::binary);
   if (!file) {
@@ -61,7 +73,7 @@ void WriteFileAtomically(const std::filesystem::path& path, const std::function<
   if (!file) {
     Fail(path, LastError());
   }
-  std::filesystem::rename(temporary.path(), path, error);
+  std::filesystem::rename(temporary.path(), target, error);
   if (error) {
     Fail(path, error.message());
   }

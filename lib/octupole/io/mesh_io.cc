@@ -49,10 +49,15 @@ constexpr std::pair<std::string_view, std::string_view> kOtherContents[] = {
 
 bool StartsWith(std::string_view text, std::string_view start) { return text.substr(0, start.size()) == start; }
 
-const Format& FormatOfExtension(const std::filesystem::path& path) {
+std::string LowerExtension(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return std::tolower(c); });
+  return extension;
+}
+
+const Format& FormatOfExtension(const std::filesystem::path& path) {
+  const std::string extension = LowerExtension(path);
   for (const Format& format : kFormats) {
     if (format.extension == extension) {
       return format;
@@ -105,15 +110,19 @@ std::string_view TextOf(const std::filesystem::path& path, const FileContent& co
   return text;
 }
 
-/// Reads the .node and the .ele file, of which either may be given, and the .edge file if there is one.
-ParsedMesh ReadTetGenFiles(const std::filesystem::path& path, const Format& format) {
+/// The .node, the .ele and the .edge file of which one is given.
+std::array<std::filesystem::path, 3> TetGenFiles(const std::filesystem::path& path) {
   const auto beside = [&](const char* extension) {
     return path.extension() == extension ? path : std::filesystem::path(path).replace_extension(extension);
   };
   const bool is_upper_case = path.extension() == ".NODE" || path.extension() == ".ELE";
-  const std::filesystem::path nodes = beside(is_upper_case ? ".NODE" : ".node");
-  const std::filesystem::path elements = beside(is_upper_case ? ".ELE" : ".ele");
-  const std::filesystem::path edges = beside(is_upper_case ? ".EDGE" : ".edge");
+  return {beside(is_upper_case ? ".NODE" : ".node"), beside(is_upper_case ? ".ELE" : ".ele"),
+          beside(is_upper_case ? ".EDGE" : ".edge")};
+}
+
+/// Reads the .node and the .ele file, of which either may be given, and the .edge file if there is one.
+ParsedMesh ReadTetGenFiles(const std::filesystem::path& path, const Format& format) {
+  const auto [nodes, elements, edges] = TetGenFiles(path);
   const FileContent node_content(nodes);
   const FileContent element_content(elements);
   const NamedText node_file{nodes.string(), TextOf(nodes, node_content, format)};
@@ -246,6 +255,12 @@ TetMesh ReadTetMesh(const std::filesystem::path& path, std::vector<std::string>*
   const FileContent content(path);
   const NamedText file{path.string(), TextOf(path, content, format)};
   return internal::FinishMesh(path.string(), format.read(file), warnings);
+}
+
+std::vector<std::filesystem::path> TetMeshFiles(const std::filesystem::path& path) {
+  if (LowerExtension(path) != ".node" && LowerExtension(path) != ".ele") return {path};
+  const auto files = TetGenFiles(path);
+  return {files.begin(), files.end()};
 }
 
 }  // namespace octupole

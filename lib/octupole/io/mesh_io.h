@@ -36,4 +36,7 @@ namespace octupole {
 /// range or twice in a tetrahedron, a coordinate that is not finite, or no tetrahedra.
 TetMesh ReadTetMesh(const std::filesystem::path& path, std::vector<std::string>* warnings = nullptr);
 
+/// The files that ReadTetMesh(path) reads: `path`, and those beside it that belong to the format, there or not.
+std::vector<std::filesystem::path> TetMeshFiles(const std::filesystem::path& path);
+
 }  // namespace octupole

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
 #include <utility>
 
 #include "octupole/field/coarse_graph.h"
@@ -70,12 +71,17 @@ std::vector<Harmonic<kDegree>> ChooseStart(const std::vector<CoarseGraph>& level
                                            std::uint32_t seed, Minimizer* minimizer) {
   const FieldGraph& graph = levels[start_level].graph;
   std::vector<std::vector<Harmonic<kDegree>>> starts;
+  std::vector<std::string> names = {"linear start"};
+  minimizer->BeginStep(names[0]);
   starts.push_back(internal::HarmonicsOf<kDegree>(internal::LinearFrames(graph, kFieldTolerance, seed, minimizer)));
   for (int i = 0; i < kNumRandomStarts; ++i) {
+    names.push_back("random start " + std::to_string(i + 1));
     starts.push_back(RandomField<kDegree>(graph, seed * kNumRandomStarts + i));
   }
   if (start_level + 1 < levels.size()) {
     std::size_t level = levels.size() - 1;
+    names.push_back("coarse start");
+    minimizer->BeginStep(names.back());
     std::vector<Harmonic<kDegree>> field = RandomField<kDegree>(levels[level].graph, seed);
     for (; level > start_level; --level) {
       MinimizeField<kDegree>(levels[level].graph, weights[level], kFieldTolerance, minimizer, &field);
@@ -84,16 +90,19 @@ std::vector<Harmonic<kDegree>> ChooseStart(const std::vector<CoarseGraph>& level
     starts.push_back(std::move(field));
   }
   double lowest = std::numeric_limits<double>::infinity();
-  std::vector<Harmonic<kDegree>> best = starts[0];
-  for (std::vector<Harmonic<kDegree>>& field : starts) {
+  std::size_t best = 0;
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    std::vector<Harmonic<kDegree>>& field = starts[i];
+    minimizer->BeginStep(names[i]);
     MinimizeField<kDegree>(graph, weights[start_level], kFieldTolerance, minimizer, &field);
     Frames frames = ProjectField<kDegree>(graph, field, minimizer->workers());
     const double energy = PolishFrames(graph, minimizer, &frames);
     if (energy >= lowest) continue;
     lowest = energy;
-    best = std::move(field);
+    best = i;
   }
-  return best;
+  minimizer->Tell(names[best] + " chosen");
+  return std::move(starts[best]);
 }
 
 // Solves on the finest graph from `field`, in the order of `order`, and gives the result in the caller's order.
@@ -102,11 +111,13 @@ FieldSolution<kDegree> Finish(const FieldGraph& graph, const std::vector<int>& o
                               std::vector<Harmonic<kDegree>> field, Minimizer* minimizer) {
   FieldSolution<kDegree> result;
   result.size = SizeOfProblem(graph, kUnknownsOfKind<kDegree>);
+  minimizer->BeginStep("field");
   result.energy = MinimizeField<kDegree>(graph, weights, kFieldTolerance, minimizer, &field);
   const bool is_converged = minimizer->termination() == ceres::CONVERGENCE;
   result.termination = minimizer->termination();
   if (result.termination == ceres::FAILURE) return result;
   Frames frames = ProjectField<kDegree>(graph, field, minimizer->workers());
+  minimizer->BeginStep("frames");
   PolishFrames(graph, minimizer, &frames);
   if (is_converged) result.termination = minimizer->termination();
   result.iterations = minimizer->iterations();
@@ -128,6 +139,7 @@ FieldSolution<kDegree> SolveFast(const FieldGraph& graph, const EnergyWeights& w
   std::size_t level = 0;
   while (level + 1 < levels.size() && levels[level].graph.num_vertices() > kMaxStartVertices) ++level;
   std::vector<Harmonic<kDegree>> field = ChooseStart<kDegree>(levels, level_weights, level, options.seed, &minimizer);
+  minimizer.BeginStep("level");
   for (; level > 0; --level) {
     MinimizeField<kDegree>(levels[level].graph, level_weights[level], kFieldTolerance, &minimizer, &field);
     field = Prolongate<kDegree>(levels[level], field);

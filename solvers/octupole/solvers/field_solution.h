@@ -4,13 +4,27 @@
 #include <ceres/types.h>
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "octupole/field/field_graph.h"
 #include "octupole/harmonics/harmonics.h"
 
 namespace octupole {
+
+/// One minimisation of the several that a method of ours makes, as it ended.
+struct StepSummary {
+  /// "random start 2", "level", "field", "frames" and so on; or, with nothing else set, which start was chosen.
+  std::string name;
+  std::size_t num_vertices = 0;
+  int num_iterations = 0;
+  double energy = 0;
+  /// Since the method began.
+  double cumulative_time_in_seconds = 0;
+};
 
 /// What all methods of ours take, those that minimise without Ceres' solvers.
 struct MinimizerOptions {
@@ -23,6 +37,8 @@ struct MinimizerOptions {
   /// and `cumulative_time_in_seconds` are set. The cost is that of the minimisation at work, often one on a coarser
   /// graph or one step of several.
   ceres::IterationCallback* callback = nullptr;
+  /// Called after every minimisation.
+  std::function<void(const StepSummary&)> step_callback;
 };
 
 /// What all methods give: frames, and how they were found.

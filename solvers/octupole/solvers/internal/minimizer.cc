@@ -24,7 +24,18 @@ double Minimizer::Minimize(const ceres::FirstOrderFunction& function, const Fiel
   options.callback = this;
   const LbfgsSummary summary = MinimizeLbfgs(function, options, &workers_, x);
   if (!IsEnded()) termination_ = summary.termination;
-  return 2 * summary.final_cost;
+  const double energy = 2 * summary.final_cost;
+  if (options_.step_callback) {
+    options_.step_callback({step_, graph.num_vertices(), summary.num_iterations, energy, Seconds()});
+  }
+  return energy;
+}
+
+void Minimizer::Tell(std::string what) const {
+  StepSummary summary;
+  summary.name = std::move(what);
+  summary.cumulative_time_in_seconds = Seconds();
+  if (options_.step_callback) options_.step_callback(summary);
 }
 
 FrameSolution Minimizer::MakeSolution(const std::vector<int>& order, const Frames& frames, double energy,
@@ -41,8 +52,7 @@ FrameSolution Minimizer::MakeSolution(const std::vector<int>& order, const Frame
 ceres::CallbackReturnType Minimizer::operator()(const ceres::IterationSummary& summary) {
   iterations_.push_back(summary);
   iterations_.back().iteration = static_cast<int>(iterations_.size());
-  iterations_.back().cumulative_time_in_seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  iterations_.back().cumulative_time_in_seconds = Seconds();
   return options_.callback == nullptr ? ceres::SOLVER_CONTINUE : (*options_.callback)(iterations_.back());
 }
 

@@ -7,6 +7,8 @@
 #include <Eigen/Core>
 #include <chrono>
 #include <cstdint>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "octupole/field/field_graph.h"
@@ -36,6 +38,11 @@ class Minimizer final : public ceres::IterationCallback {
  public:
   explicit Minimizer(const MinimizerOptions& options) : options_(options), workers_(options.num_threads) {}
 
+  /// Names what is minimised from now on, for MinimizerOptions::step_callback.
+  void BeginStep(std::string name) { step_ = std::move(name); }
+  /// Tells the caller something about the steps that is no minimisation.
+  void Tell(std::string what) const;
+
   Workers* workers() { return &workers_; }
   const std::vector<ceres::IterationSummary>& iterations() const { return iterations_; }
   /// Of the last minimisation, unless an earlier one was ended by the caller.
@@ -55,7 +62,10 @@ class Minimizer final : public ceres::IterationCallback {
  private:
   bool IsEnded() const { return termination_ == ceres::USER_SUCCESS || termination_ == ceres::USER_FAILURE; }
 
+  double Seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
   const MinimizerOptions& options_;
+  std::string step_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   Workers workers_;
   std::vector<ceres::IterationSummary> iterations_;

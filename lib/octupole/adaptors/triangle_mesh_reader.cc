@@ -1,4 +1,4 @@
-#include "surface_reader.h"
+#include "octupole/adaptors/triangle_mesh_reader.h"
 
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <algorithm>
@@ -7,10 +7,13 @@
 #include <fstream>
 #include <iostream>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 // After MeshIO.hh, which has to come before the meshes.
 #include <OpenMesh/Core/IO/importer/ImporterT.hh>
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
+
+#include "octupole/io/internal/text_tokenizer.h"
 
 namespace octupole {
 namespace {
@@ -44,9 +47,8 @@ class ScopedSilence {
 // Takes the vertices into a mesh, but the faces as they are.
 class FaceCollector final : public OpenMesh::IO::ImporterT<Mesh> {
  public:
-  /// No more than `max_items` vertices, and faces, can be in the file, whatever it claims.
-  FaceCollector(std::uintmax_t max_items, Mesh* vertices)
-      : ImporterT(*vertices), max_items_(max_items), vertices_(vertices) {}
+  FaceCollector(const std::filesystem::path& path, Mesh* vertices)
+      : ImporterT(*vertices), path_(path.string()), max_items_(std::filesystem::file_size(path)), vertices_(vertices) {}
 
   const std::vector<std::vector<int>>& faces() const { return faces_; }
 
@@ -69,7 +71,7 @@ class FaceCollector final : public OpenMesh::IO::ImporterT<Mesh> {
     for (const OpenMesh::VertexHandle corner : corners) {
       face.push_back(corner.idx());
       if (vertices_->is_valid_handle(corner)) continue;
-      throw std::runtime_error("face " + std::to_string(faces_.size()) + " has a vertex that is not there");
+      throw std::runtime_error(path_ + ": face " + std::to_string(faces_.size()) + " has a vertex that is not there");
     }
     return OpenMesh::FaceHandle(static_cast<int>(faces_.size()) - 1);
   }
@@ -82,25 +84,110 @@ class FaceCollector final : public OpenMesh::IO::ImporterT<Mesh> {
 
  private:
   void CheckCount(std::size_t count) const {
-    if (count >= max_items_) throw std::runtime_error("it claims more vertices or faces than it has bytes");
+    if (count >= max_items_) throw std::runtime_error(path_ + ": it claims more vertices or faces than it has bytes");
   }
 
+  std::string path_;
+  /// No more vertices, and faces, can be in the file, whatever it claims.
   std::uintmax_t max_items_;
   Mesh* vertices_;
   std::vector<std::vector<int>> faces_;
 };
 
-std::string LowerExtension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
+std::string LowerCase(std::string_view text) {
+  std::string lower(text);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
+  return lower;
+}
+
+// The vertices and faces of an OBJ file. OpenMesh asserts that faces have vertices, passes over vertices that are no
+// numbers, so that all that come after have wrong indices, and opens whatever files of materials are named.
+std::string CheckedObj(const std::filesystem::path& path) {
+  const internal::FileContent content(path);
+  internal::TextTokenizer tokens(path.string(), content.text(), '#');
+  std::ostringstream checked;
+  while (!tokens.AtEnd()) {
+    const std::string_view keyword = tokens.NextWord();
+    if (keyword == "v") {
+      checked << "v";
+      for (int k = 0; k < 3; ++k) {
+        if (tokens.AtLineEnd()) tokens.Fail("a vertex has less than three coordinates");
+        internal::TextTokenizer bookmark = tokens;
+        tokens.NextReal("a coordinate");
+        checked << " " << bookmark.NextWord();
+      }
+      checked << "\n";
+    } else if (keyword == "f") {
+      if (tokens.AtLineEnd()) tokens.Fail("a face without vertices");
+      checked << "f";
+      while (!tokens.AtLineEnd()) {
+        // "vertex/texture/normal"
+        std::string_view corner = tokens.NextWord();
+        corner = corner.substr(0, corner.find('/'));
+        if (corner.empty() || corner.find_first_not_of("-0123456789") != std::string_view::npos) {
+          tokens.Fail("a face has " + internal::Quoted(corner) + " where a vertex was expected");
+        }
+        checked << " " << corner;
+      }
+      checked << "\n";
+    }
+    tokens.SkipLine();
+  }
+  return checked.str();
+}
+
+// Throws unless a file that is no complete binary STL file is a complete one of text: of that, OpenMesh takes the lines
+// that it knows, and has no opinion on the rest.
+void CheckStl(const std::filesystem::path& path) {
+  const internal::FileContent content(path);
+  const std::string_view bytes = content.text();
+  constexpr std::size_t kHeader = 80, kCount = 4, kTriangle = 50;
+  if (bytes.size() >= kHeader + kCount) {
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < kCount; ++k)
+      count |= std::size_t{static_cast<unsigned char>(bytes[kHeader + k])} << 8 * k;
+    if (bytes.size() == kHeader + kCount + count * kTriangle) return;
+  }
+  internal::TextTokenizer tokens(path.string(), bytes);
+  const auto expect = [&tokens](const char* word) {
+    if (LowerCase(tokens.NextWord()) != word) tokens.Fail("not the '" + std::string(word) + "' of an STL file");
+  };
+  expect("solid");
+  tokens.SkipLine();
+  for (;;) {
+    const std::string keyword = LowerCase(tokens.NextWord());
+    if (keyword == "endsolid") {
+      tokens.SkipLine();
+      if (tokens.AtEnd()) return;
+      expect("solid");
+      tokens.SkipLine();
+      continue;
+    }
+    if (keyword != "facet") tokens.Fail("neither 'facet' nor 'endsolid' of an STL file");
+    tokens.SkipLine();
+    expect("outer");
+    expect("loop");
+    for (int corner = 0; corner < 3; ++corner) {
+      if (!tokens.AtLineEnd()) tokens.Fail("more than one vertex on a line of an STL file");
+      expect("vertex");
+      for (int k = 0; k < 3; ++k) tokens.NextReal("a coordinate");
+    }
+    expect("endloop");
+    expect("endfacet");
+  }
 }
 
 bool Import(const std::filesystem::path& path, const std::string& extension, OpenMesh::IO::BaseImporter* importer) {
   OpenMesh::IO::Options options;
-  if (extension == ".obj" || extension == ".stl")
+  if (extension == ".stl") {
+    CheckStl(path);
     return OpenMesh::IO::IOManager().read(path.string(), *importer, options);
+  }
+  if (extension == ".obj") {
+    std::istringstream stream(CheckedObj(path));
+    return OpenMesh::IO::IOManager().read(stream, extension, *importer, options);
+  }
   // The readers of formats that begin with counts go on to the end of those, whether there is anything to read or not.
   std::ifstream stream(path, std::ios::binary);
   stream.exceptions(std::ios::failbit | std::ios::badbit);
@@ -109,20 +196,6 @@ bool Import(const std::filesystem::path& path, const std::string& extension, Ope
 
 std::string Count(std::size_t number, const char* one, const char* several) {
   return std::to_string(number) + " " + (number == 1 ? one : several);
-}
-
-// What is wrong with the vertices of an OBJ file, of which OpenMesh read so many: it passes over those that are no
-// numbers, and all that come after have wrong indices.
-std::string ProblemOfObj(const std::filesystem::path& path, std::size_t num_read) {
-  std::ifstream stream(path);
-  std::size_t count = 0;
-  for (std::string line; std::getline(stream, line);) {
-    const std::size_t begin = line.find_first_not_of(" \t");
-    count += begin != std::string::npos && line[begin] == 'v' && begin + 1 < line.size() &&
-             (line[begin + 1] == ' ' || line[begin + 1] == '\t');
-  }
-  if (count == num_read) return "";
-  return "of " + Count(count, "vertex", "vertices") + " only " + std::to_string(num_read) + " can be read as numbers";
 }
 
 void WarnOfTopology(const TriangleMesh& mesh, std::vector<std::string>* warnings) {
@@ -139,59 +212,55 @@ void WarnOfTopology(const TriangleMesh& mesh, std::vector<std::string>* warnings
 
 }  // namespace
 
-SurfaceFile ReadSurface(const std::filesystem::path& path, std::vector<std::string>* warnings) {
+TriangleMesh ReadTriangleMesh(const std::filesystem::path& path, std::vector<std::string>* warnings,
+                              std::vector<int>* faces) {
   const auto fail = [&](const std::string& what) -> std::runtime_error {
     return std::runtime_error(path.string() + ": " + what);
   };
-  const std::string extension = LowerExtension(path);
+  const std::string extension = LowerCase(path.extension().string());
   if (extension != ".obj" && extension != ".off" && extension != ".stl" && extension != ".ply") {
     throw fail("not one of .obj, .off, .stl and .ply");
   }
   if (!std::filesystem::is_regular_file(path) || !std::ifstream(path)) throw fail("cannot be opened");
 
   Mesh vertices;
-  FaceCollector collector(std::filesystem::file_size(path), &vertices);
-  std::string problem;
+  FaceCollector collector(path, &vertices);
+  bool is_read = false;
   try {
     const ScopedSilence silence;
-    if (!Import(path, extension, &collector)) problem = "OpenMesh cannot read it as " + extension;
+    is_read = Import(path, extension, &collector);
   } catch (const std::ios_base::failure&) {
-    problem = "it ends too early, or has something else than numbers";
-  } catch (const std::exception& error) {
-    problem = error.what();
+    throw fail("it ends too early, or has something else than numbers");
   }
-  if (extension == ".obj") {
-    const std::string problem_of_vertices = ProblemOfObj(path, vertices.n_vertices());
-    if (!problem_of_vertices.empty()) problem = problem_of_vertices;
-  }
-  if (!problem.empty()) throw fail(problem);
+  if (!is_read) throw fail("OpenMesh cannot read it as " + extension);
 
-  SurfaceFile file;
+  TriangleMesh mesh;
   for (std::size_t v = 0; v < vertices.n_vertices(); ++v) {
     const OpenMesh::Vec3d p = vertices.point(OpenMesh::VertexHandle(static_cast<int>(v)));
-    file.mesh.points.emplace_back(p[0], p[1], p[2]);
-    if (!file.mesh.points.back().allFinite()) throw fail("vertex " + std::to_string(v + 1) + " is not finite");
+    mesh.points.emplace_back(p[0], p[1], p[2]);
+    if (!mesh.points.back().allFinite()) throw fail("vertex " + std::to_string(v + 1) + " is not finite");
   }
-  file.num_faces = collector.faces().size();
+  if (faces != nullptr) faces->clear();
   std::size_t num_degenerate = 0;
-  for (std::size_t f = 0; f < file.num_faces; ++f) {
+  for (std::size_t f = 0; f < collector.faces().size(); ++f) {
     const std::vector<int>& face = collector.faces()[f];
     if (face.size() < 3 || std::set<int>(face.begin(), face.end()).size() < face.size()) {
       ++num_degenerate;
       continue;
     }
-    for (const std::array<int, 3>& triangle : FanOfPolygon(file.mesh.points, face)) {
-      file.mesh.triangles.push_back(triangle);
-      file.faces.push_back(static_cast<int>(f));
+    for (const std::array<int, 3>& triangle : FanOfPolygon(mesh.points, face)) {
+      mesh.triangles.push_back(triangle);
+      if (faces != nullptr) faces->push_back(static_cast<int>(f));
     }
   }
-  if (file.mesh.triangles.empty()) throw fail("no faces");
+  if (mesh.triangles.empty()) throw fail("no faces");
+  if (warnings == nullptr) return mesh;
   if (num_degenerate > 0) {
     warnings->push_back(Count(num_degenerate, "face has", "faces have") +
                         " a corner twice, or less than three corners: left out");
   }
-  WarnOfTopology(file.mesh, warnings);
-  return file;
+  WarnOfTopology(mesh, warnings);
+  return mesh;
 }
 
 }  // namespace octupole
