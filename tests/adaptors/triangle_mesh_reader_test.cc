@@ -102,6 +102,23 @@ TEST_F(ReadTriangleMeshTest, NamesTheLineOfWhatIsWrongInAnObj) {
   EXPECT_EQ(Problem("a.obj", points), " no faces");
 }
 
+TEST_F(ReadTriangleMeshTest, NamesTheLineOfWhatIsWrongInThePlyHeader) {
+  const std::string start = "ply\nformat ascii 1.0\n";
+  EXPECT_EQ(Problem("a.ply", start + "comment x\nproperty float x\n"), "4: a property of no element");
+  EXPECT_THAT(Problem("a.ply", start + "elephant vertex 3\n"), StartsWith("3: 'elephant' where a keyword"));
+  EXPECT_EQ(Problem("a.ply", start + "element vertex 3\nproperty real x\n"), "4: 'real' is no type of PLY");
+  EXPECT_THAT(Problem("a.ply", start + "element vertex 300000000\n"), StartsWith("3: "));
+  EXPECT_EQ(Problem("a.ply", start + "element face 1\nproperty list uchar float texcoord\n"),
+            "4: a list of something else than corners of faces cannot be read");
+  EXPECT_THAT(Problem("a.ply", start + "element vertex 3\n"), StartsWith("3: "));
+  EXPECT_EQ(
+      Read("info.ply", start + "obj_info element property\nelement vertex 3\nproperty float x\nproperty float y\n"
+                               "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                               "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+          .triangles.size(),
+      1u);
+}
+
 TEST_F(ReadTriangleMeshTest, NoticesAnStlThatIsCutAnywhere) {
   const std::string text = kStl;
   // Behind the last word nothing is missing.

@@ -65,6 +65,25 @@ void WriteSeeds(const std::filesystem::path& folder) {
         "2 2 2 1\n1 1 2 9\n3 1 4 1\n2 1 2 9 3000000000\n$EndElements\n");
   std::filesystem::create_directories(folder / "vtu");
   WriteVtu(folder / "vtu/compressed", mesh, {});
+
+  write("obj", "polygons",
+        "# x\no part\nv 0 0 0\nv 1 0 0 1 0 0\nv 1 1 0\nv 0 1 2e-3\nvt 0 0\nvn 0 0 1\nf 1/1/1 2//1 3 4/1\nf -4 -3 -1\n");
+  write("off", "text", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n4 0 1 2 3\n");
+  write("off", "coloured", "COFF\n3 1 0\n0 0 0 1 2 3\n1 0 0 .1 .2 .3\n0 1 0 1 2 3 4\n3 0 1 2 7\n");
+  const std::string ply_header =
+      " 1.0\ncomment x\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nproperty uchar red\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n";
+  write("ply", "text", "ply\nformat ascii" + ply_header + "0 0 0 1\n1 0 0 2\n0 1 0 3\n3 0 1 2\n");
+  write("ply", "binary",
+        "ply\nformat binary_little_endian" + ply_header + std::string(39, '\0') + "\3" + std::string(4, '\0') + "\1" +
+            std::string(3, '\0') + "\2" + std::string(3, '\0'));
+  write("stl", "text",
+        "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1e0 0\nendloop\nendfacet\n"
+        "endsolid x\n");
+  write("stl", "binary",
+        std::string(80, ' ') + "\1" + std::string(3, '\0') + std::string(26, '\0') + "\x80\x3f" +
+            std::string(14, '\0') + "\x80\x3f" + std::string(6, '\0'));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <fstream>
 #include <iostream>
+#include <memory>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -178,6 +179,58 @@ void CheckStl(const std::filesystem::path& path) {
   }
 }
 
+// A PLY file whose header OpenMesh can take: it writes beyond its memory at a property that comes before any element,
+// cannot count the bytes of types that it does not know, reads lists of other things than corners as single numbers,
+// and looks for keywords in what follows obj_info.
+std::string CheckedPly(const std::filesystem::path& path) {
+  static const std::set<std::string_view> kTypes = {"char",  "uchar",  "short",   "ushort", "int",   "uint",
+                                                    "float", "double", "int8",    "uint8",  "int16", "uint16",
+                                                    "int32", "uint32", "float32", "float64"};
+  static const std::set<std::string_view> kCountTypes = {"uint8", "uint16", "uchar", "int"};
+  const internal::FileContent content(path);
+  const std::string_view text = content.text();
+  internal::TextTokenizer tokens(path.string(), text);
+  const auto next_of = [&tokens](const std::set<std::string_view>& words, const char* what) {
+    const std::string_view word = tokens.NextWord();
+    if (words.count(word) == 0) tokens.Fail(internal::Quoted(word) + " where " + what + " was expected");
+    return word;
+  };
+  std::ostringstream header;
+  header << next_of({"ply", "PLY"}, "'ply'") << "\n" << next_of({"format"}, "'format'") << " ";
+  header << next_of({"ascii", "binary_little_endian", "binary_big_endian"}, "a format of PLY") << " 1.0\n";
+  tokens.SkipLine();
+  std::string element;
+  for (;;) {
+    const std::string_view keyword =
+        next_of({"comment", "obj_info", "element", "property", "end_header"}, "a keyword of a PLY header");
+    if (keyword == "element") {
+      element = tokens.NextWord();
+      const int count = tokens.CheckCount(tokens.NextInteger("a count"), "elements", 1);
+      header << "element " << element << " " << count << "\n";
+    } else if (keyword == "property") {
+      if (element.empty()) tokens.Fail("a property of no element");
+      std::string_view type = tokens.NextWord();
+      const bool is_list = type == "list";
+      header << "property " << type;
+      if (is_list) {
+        header << " " << next_of(kCountTypes, "a type of counts that OpenMesh reads");
+        type = tokens.NextWord();
+        header << " " << type;
+      }
+      if (kTypes.count(type) == 0) tokens.Fail(internal::Quoted(type) + " is no type of PLY");
+      const std::string_view name = tokens.NextWord();
+      const bool are_corners = element == "face" && (name == "vertex_index" || name == "vertex_indices");
+      if (is_list && !are_corners) tokens.Fail("a list of something else than corners of faces cannot be read");
+      header << " " << name << "\n";
+    } else if (keyword == "end_header") {
+      const std::string_view rest = tokens.SkipLine();
+      const std::size_t header_size = rest.data() + rest.size() - text.data();
+      return header.str() + "end_header\n" + std::string(text.substr(std::min(header_size + 1, text.size())));
+    }
+    tokens.SkipLine();
+  }
+}
+
 bool Import(const std::filesystem::path& path, const std::string& extension, OpenMesh::IO::BaseImporter* importer) {
   OpenMesh::IO::Options options;
   if (extension == ".stl") {
@@ -188,10 +241,15 @@ bool Import(const std::filesystem::path& path, const std::string& extension, Ope
     std::istringstream stream(CheckedObj(path));
     return OpenMesh::IO::IOManager().read(stream, extension, *importer, options);
   }
+  std::unique_ptr<std::istream> stream;
+  if (extension == ".ply") {
+    stream = std::make_unique<std::istringstream>(CheckedPly(path));
+  } else {
+    stream = std::make_unique<std::ifstream>(path, std::ios::binary);
+  }
   // The readers of formats that begin with counts go on to the end of those, whether there is anything to read or not.
-  std::ifstream stream(path, std::ios::binary);
-  stream.exceptions(std::ios::failbit | std::ios::badbit);
-  return OpenMesh::IO::IOManager().read(stream, extension, *importer, options);
+  stream->exceptions(std::ios::failbit | std::ios::badbit);
+  return OpenMesh::IO::IOManager().read(*stream, extension, *importer, options);
 }
 
 std::string Count(std::size_t number, const char* one, const char* several) {
