@@ -36,6 +36,7 @@ ChildOutcome RunSelf(const std::vector<std::string>& arguments, const std::files
   std::vector<std::string> strings = {"octupole"};
   strings.insert(strings.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
+  pointers.reserve(strings.size() + 1);
   for (std::string& string : strings) pointers.push_back(string.data());
   pointers.push_back(nullptr);
   const pid_t child = fork();

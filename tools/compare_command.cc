@@ -185,6 +185,7 @@ Json Summarize(const std::string& method, const std::vector<Json>& runs) {
   }
   for (const Figure& figure : kFigures) {
     std::vector<double> values;
+    values.reserve(runs.size());
     for (const Json& run : runs) values.push_back(run.at(Pointer(figure.place)).get<double>());
     const Json& first = runs[0].at(Pointer(figure.place));
     // Whole numbers stay whole unless runs differ.

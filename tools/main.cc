@@ -47,7 +47,7 @@ std::string Versions() {
   return versions;
 }
 
-int Main(int argc, char** argv) {
+void Run(int argc, char** argv, CLI::App* app) {
   // What Ceres has to say comes out through the same log as what we have to say.
   FLAGS_logtostderr = true;
   FLAGS_minloglevel = google::WARNING;
@@ -55,25 +55,32 @@ int Main(int argc, char** argv) {
   // A file that grows too large is an error like any other; the signal would leave the temporary file behind.
   std::signal(SIGXFSZ, SIG_IGN);
 
-  CLI::App app("Frame fields on tetrahedral meshes and on surfaces.", "octupole");
-  app.set_version_flag("--version", Versions());
-  app.require_subcommand(1);
-  AddFieldCommand(&app);
-  AddInfoCommand(&app);
-  AddCompareCommand(&app);
+  app->set_version_flag("--version", Versions());
+  app->require_subcommand(1);
+  AddFieldCommand(app);
+  AddInfoCommand(app);
+  AddCompareCommand(app);
 #ifdef OCTUPOLE_WITH_OPENMESH
-  AddSurfaceCommand(&app);
+  AddSurfaceCommand(app);
 #endif
   // Commands run as CLI11 callbacks, so whatever they throw comes out of parse().
+  app->parse(argc, argv);
+}
+
+}  // namespace
+}  // namespace octupole
+
+int main(int argc, char** argv) {
+  CLI::App app("Frame fields on tetrahedral meshes and on surfaces.", "octupole");
   try {
-    app.parse(argc, argv);
+    octupole::Run(argc, argv, &app);
   } catch (const CLI::RuntimeError& interruption) {
     return interruption.get_exit_code();
   } catch (const CLI::ParseError& error) {
     constexpr int kUsageError = 2;
     return app.exit(error) == 0 ? 0 : kUsageError;
   } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "octupole: %s\n", OutOfMemoryMessage().c_str());
+    std::fprintf(stderr, "octupole: %s\n", octupole::OutOfMemoryMessage().c_str());
     return 1;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "octupole: %s\n", error.what());
@@ -81,8 +88,3 @@ int Main(int argc, char** argv) {
   }
   return 0;
 }
-
-}  // namespace
-}  // namespace octupole
-
-int main(int argc, char** argv) { return octupole::Main(argc, argv); }

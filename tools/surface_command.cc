@@ -42,6 +42,7 @@ void WriteCrossField(const std::filesystem::path& path, const TriangleMesh& mesh
     for (int k = 0; k < 3; ++k) axes[k].push_back(cross.col(k));
   }
   std::vector<std::int32_t> kinds;
+  kinds.reserve(alignments.size());
   for (const Alignment& alignment : alignments) kinds.push_back(static_cast<std::int32_t>(alignment.kind()));
   std::vector<std::int32_t> faces, indices;
   for (const int face : faces_of_triangles) {

@@ -89,6 +89,29 @@ TEST(CoarsenGraph, KeepsTheStrongestAlignmentThatAgreesBest) {
   EXPECT_EQ(coarse.graph.alignments[0].kind(), AlignmentKind::kFrame);
 }
 
+// A hub with nine neighbours has room for seven: the two that it is tied to least go to the hub that holds them more.
+TEST(CoarsenGraph, ClustersTakeTheHeaviestNeighboursFirst) {
+  FieldGraph graph = {{}, std::vector<Alignment>(15)};
+  for (int v = 1; v <= 9; ++v) graph.edges.push_back({0, v, v <= 2 ? .5 : 1});
+  for (int v = 11; v <= 14; ++v) graph.edges.push_back({10, v, 1});
+  for (int v = 1; v <= 2; ++v) graph.edges.push_back({10, v, 3});
+  const std::vector<int> cluster_of = CoarsenGraph(graph).cluster_of;
+  for (int v = 3; v <= 9; ++v) EXPECT_EQ(cluster_of[v], cluster_of[0]) << v;
+  for (int v : {1, 2, 11, 12, 13, 14}) EXPECT_EQ(cluster_of[v], cluster_of[10]) << v;
+  EXPECT_NE(cluster_of[0], cluster_of[10]);
+}
+
+// Two stars of six, and a vertex with two light ties to one and a heavy one to the other.
+TEST(CoarsenGraph, TheRestJoinsWhereTiesWeighMost) {
+  FieldGraph graph = {{}, std::vector<Alignment>(13)};
+  for (int v = 1; v <= 5; ++v) graph.edges.push_back({0, v, 1});
+  for (int v = 7; v <= 11; ++v) graph.edges.push_back({6, v, 1});
+  graph.edges.insert(graph.edges.end(), {{12, 1, 1}, {12, 2, 1}, {12, 7, 3}});
+  const std::vector<int> cluster_of = CoarsenGraph(graph).cluster_of;
+  EXPECT_EQ(cluster_of[12], cluster_of[6]);
+  EXPECT_NE(cluster_of[0], cluster_of[6]);
+}
+
 TEST(CoarsenGraph, LeavesIsolatedVerticesAndComponentsApart) {
   EXPECT_EQ(CoarsenGraph({}).graph.num_vertices(), 0u);
   const FieldGraph graph = {{{0, 1, 1}, {3, 4, 1}, {4, 5, 1}}, std::vector<Alignment>(6)};

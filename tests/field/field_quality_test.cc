@@ -25,6 +25,9 @@ TEST(MeasureField, FindsNothingWrongWithTheConstantFieldOfABox) {
   // Order and signs of the axes do not count.
   for (std::size_t v = 0; v < frames.size(); ++v) frames[v] = OctahedralGroup()[v % 24].matrix();
   const FieldQuality quality = MeasureField(mesh, frames);
+  // A box of a x b x c cubes, each of six tets around a diagonal: edges along three axes, three kinds of face diagonals
+  // and one of space diagonals.
+  EXPECT_EQ(quality.edges, 3u * 5 * 6 + 4u * 4 * 6 + 4u * 5 * 5 + 3u * 4 * 6 + 3u * 5 * 5 + 4u * 4 * 5 + 3u * 4 * 5);
   EXPECT_NEAR(quality.energy3, 0, 1e-12);
   EXPECT_NEAR(quality.energy4, 0, 1e-12);
   EXPECT_NEAR(quality.boundary_max_deg, 0, 1e-12);

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "octupole/frames/internal/nearest_rotation.h"
 #include "octupole/frames/octahedral_group.h"
 #include "octupole/harmonics/rotation.h"
 #include "random_inputs.h"
@@ -138,6 +139,27 @@ TYPED_TEST(FrameTest, NearestFrameIsGlobal) {
     const double found = h.dot(HarmonicFromFrame<l>(NearestFrame<l>(h)));
     EXPECT_NEAR(found, brute_force.Maximum(h), 1e-9) << h.transpose();
   }
+}
+
+// Within the manifold's reach of h one climb is proof enough; beyond, the first maximum may not be the global one.
+TYPED_TEST(FrameTest, NearestFrameClimbsOnceWhereThatIsProofEnough) {
+  constexpr int l = TypeParam::value;
+  const double reach = l == 3 ? 2. / 3 : std::sqrt(5. / 12);
+  std::mt19937 generator(11);
+  int num_beyond = 0, num_that_climb_again = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Harmonic<l> h = RandomHarmonic<l>(&generator).normalized();
+    const internal::NearestRotation nearest = internal::FindNearestRotation<l>(h);
+    const double cosine = h.dot(HarmonicFromFrame<l>(nearest.rotation.toRotationMatrix()));
+    if (1 - cosine * cosine < reach * reach) {
+      EXPECT_EQ(nearest.num_climbs, 1) << h.transpose();
+    } else {
+      ++num_beyond;
+      num_that_climb_again += nearest.num_climbs > 1;
+    }
+  }
+  EXPECT_GT(num_beyond, 20);
+  EXPECT_GT(num_that_climb_again, num_beyond / 2);
 }
 
 // What NearestFrame takes for granted: below this distance a stationary frame is the nearest of all. The manifold is

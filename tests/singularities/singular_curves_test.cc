@@ -133,6 +133,23 @@ TEST(TraceSingularCurves, KnowsTheTypeOfATurn) {
   EXPECT_NEAR(across.mean_cosine, 0, .02);
 }
 
+// A curve along z around which frames turn about an axis that leans: it has a valence up to 45 degrees, where the axis
+// is as near to its direction as to those across.
+TEST(TraceSingularCurves, HasAValenceWhereTheAxisIsNearerToTheCurveThanAcross) {
+  const TetMesh mesh = MakeCentredBox(7);
+  for (const double degrees : {0, 25, 40, 50, 65, 75}) {
+    for (const int sign : {1, -1}) {
+      const Matrix3d lean = AngleAxisd(degrees * EIGEN_PI / 180, Vector3d::UnitX()).toRotationMatrix();
+      Frames frames = TurnAroundZ(mesh, sign * EIGEN_PI / 2, lean.col(2));
+      for (Matrix3d& frame : frames) frame *= lean;
+      const SingularCurves traced = Trace(mesh, frames);
+      ASSERT_EQ(traced.curves.size(), 1u) << degrees;
+      EXPECT_NEAR(traced.curves[0].mean_cosine, sign * std::cos(degrees * EIGEN_PI / 180), .03);
+      EXPECT_EQ(traced.curves[0].valence, degrees > 45 ? 0 : sign > 0 ? 3 : 5) << degrees;
+    }
+  }
+}
+
 // No triangle has a half turn about an axis: it comes apart into quarter turns of the same sense.
 TEST(TraceSingularCurves, TakesAHalfTurnForTwoQuarterTurns) {
   const TetMesh mesh = MakeCentredBox(7);

@@ -55,7 +55,7 @@ bool IsCrease(int curve) {
   gmsh::model::getParametrizationBounds(1, curve, begin, end);
   const double middle = (begin.at(0) + end.at(0)) / 2;
   const double cosine = NormalAt(curve, middle, surfaces[0]).dot(NormalAt(curve, middle, surfaces[1]));
-  return std::abs(cosine) < std::cos(kCreaseAngleDeg * EIGEN_PI / 180);
+  return std::abs(cosine) < std::cos(kCreaseAngleDeg * M_PI / 180);
 }
 
 // The indices into `points` of gmsh's nodes.

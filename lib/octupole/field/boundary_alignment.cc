@@ -93,7 +93,7 @@ std::vector<SurfaceCorner> WithNormal(std::vector<SurfaceCorner> corners) {
 // The edges between triangles whose normals differ by more than the angle.
 std::vector<std::array<int, 2>> SharpEdges(const std::vector<Eigen::Vector3d>& points,
                                            const std::vector<std::array<int, 3>>& triangles, double feature_angle_deg) {
-  const double min_cosine = std::cos(feature_angle_deg * EIGEN_PI / 180);
+  const double min_cosine = std::cos(feature_angle_deg * M_PI / 180);
   struct Side {
     int a, b;
     Eigen::Vector3d normal;
@@ -163,6 +163,7 @@ std::optional<Eigen::Vector3d> FindLine(const std::vector<Eigen::Vector3d>& dire
 
 std::vector<SurfaceCorner> WithEqualWeights(const std::vector<Eigen::Vector3d>& directions) {
   std::vector<SurfaceCorner> corners;
+  corners.reserve(directions.size());
   for (const Eigen::Vector3d& direction : directions) corners.push_back({direction, 1});
   return corners;
 }

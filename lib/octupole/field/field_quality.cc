@@ -22,12 +22,12 @@ void MeasureBoundary(const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& fr
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
     if (corners_of[v].empty() || !NormalsAgree(corners_of[v], kSmoothAngleDeg)) continue;
     const Eigen::Vector3d normal = MeanNormal(corners_of[v]);
-    double angle = EIGEN_PI;
+    double angle = M_PI;
     for (int k = 0; k < 3; ++k) {
       const Eigen::Vector3d axis = frames[v].col(k);
       angle = std::min(angle, std::atan2(axis.cross(normal).norm(), std::abs(axis.dot(normal))));
     }
-    angle *= 180 / EIGEN_PI;
+    angle *= 180 / M_PI;
     sum_of_squares += angle * angle;
     quality->boundary_max_deg = std::max(quality->boundary_max_deg, angle);
     ++quality->smooth_boundary_vertices;

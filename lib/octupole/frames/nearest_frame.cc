@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "octupole/frames/frame.h"
+#include "octupole/frames/internal/nearest_rotation.h"
 #include "octupole/frames/random_rotation.h"
 #include "octupole/harmonics/rotation.h"
 
@@ -103,7 +104,7 @@ Eigen::Matrix3d GradientsOnAxes(const Harmonic<kDegree>& h, const Eigen::Matrix3
 
 // The product is 6 t_123 divided by that of the reference. b_ji = t_iij.
 Expansion Expand(const Octupole& h, const Eigen::Matrix3d& frame) {
-  static const double scale = std::sqrt(48 * EIGEN_PI / 35);
+  static const double scale = std::sqrt(48 * M_PI / 35);
   const Eigen::Matrix3d b = GradientsOnAxes<3>(h, frame);
   const Eigen::Vector3d diagonal = frame.col(1) + frame.col(2);
   const double t_123 = (frame.col(0).dot(EvaluateGradient<3>(h, diagonal)) / 3 - b(0, 1) - b(0, 2)) / 2;
@@ -119,7 +120,7 @@ Expansion Expand(const Octupole& h, const Eigen::Matrix3d& frame) {
 
 // The product is the sum of the values of f on the axes divided by that of the reference. b_ji = t_iiij.
 Expansion Expand(const Hexadecapole& h, const Eigen::Matrix3d& frame) {
-  static const double scale = std::sqrt(16 * EIGEN_PI / 189);
+  static const double scale = std::sqrt(16 * M_PI / 189);
   const Eigen::Matrix3d b = GradientsOnAxes<4>(h, frame);
   Expansion expansion;
   expansion.value = scale * b.trace();
@@ -135,7 +136,7 @@ double LowestEigenvalue(const Eigen::Matrix3d& matrix) {
   const double spread = deviator.norm() / std::sqrt(6.);
   if (spread == 0) return mean;
   const double cosine = std::clamp(deviator.determinant() / (2 * spread * spread * spread), -1., 1.);
-  return mean + 2 * spread * std::cos((std::acos(cosine) + 2 * EIGEN_PI) / 3);
+  return mean + 2 * spread * std::cos((std::acos(cosine) + 2 * M_PI) / 3);
 }
 
 // The step of Newton's method towards a maximum. Where the curvature is not positive it is shifted until it is: a
@@ -176,23 +177,28 @@ Maximum Climb(const Harmonic<kDegree>& h, Eigen::Quaterniond rotation) {
   return {rotation, value};
 }
 
-// The global maximum of h . D(R) reference, for a unit h.
+}  // namespace
+
 template <int kDegree>
-Eigen::Quaterniond NearestRotation(const Harmonic<kDegree>& h) {
+internal::NearestRotation internal::FindNearestRotation(const Harmonic<kDegree>& h) {
   const auto& covering = Covering<kDegree>::Instance();
   const typename Covering<kDegree>::Values values = covering.Evaluate(h);
   int first = 0;
   values.maxCoeff(&first);
   Maximum best = Climb<kDegree>(h, covering.rotation(first));
+  int num_climbs = 1;
   for (int i = 0; i < covering.kSize; ++i) {
     // The distance to the best on the ray of h is sqrt(1 - value^2).
     if (best.value > 0 && 1 - best.value * best.value < kSquaredReach<kDegree>) break;
     if (i == first || !covering.IsLocalMaximum(values, i)) continue;
     const Maximum other = Climb<kDegree>(h, covering.rotation(i));
+    ++num_climbs;
     if (other.value > best.value) best = other;
   }
-  return best.rotation;
+  return {best.rotation, num_climbs};
 }
+
+namespace {
 
 template <int kDegree>
 Harmonic<kDegree> Normalized(const char* caller, const Harmonic<kDegree>& h) {
@@ -208,15 +214,18 @@ Harmonic<kDegree> Normalized(const char* caller, const Harmonic<kDegree>& h) {
 
 template <int kDegree>
 Eigen::Matrix3d NearestFrame(const Harmonic<kDegree>& h) {
-  return NearestRotation<kDegree>(Normalized<kDegree>("NearestFrame", h)).toRotationMatrix();
+  return internal::FindNearestRotation<kDegree>(Normalized<kDegree>("NearestFrame", h)).rotation.toRotationMatrix();
 }
 
 template <int kDegree>
 double DistanceToFrames(const Harmonic<kDegree>& h) {
-  const Eigen::Quaterniond nearest = NearestRotation<kDegree>(Normalized<kDegree>("DistanceToFrames", h));
+  const Eigen::Quaterniond nearest =
+      internal::FindNearestRotation<kDegree>(Normalized<kDegree>("DistanceToFrames", h)).rotation;
   return (h - HarmonicFromFrame<kDegree>(nearest.toRotationMatrix())).norm();
 }
 
+template internal::NearestRotation internal::FindNearestRotation<3>(const Octupole&);
+template internal::NearestRotation internal::FindNearestRotation<4>(const Hexadecapole&);
 template Eigen::Matrix3d NearestFrame<3>(const Octupole&);
 template Eigen::Matrix3d NearestFrame<4>(const Hexadecapole&);
 template double DistanceToFrames<3>(const Octupole&);

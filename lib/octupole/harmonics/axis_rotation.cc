@@ -53,7 +53,7 @@ HarmonicMatrix<kDegree> PaperRotationY(double angle) {
 template <int kDegree>
 HarmonicMatrix<kDegree> HarmonicRotationX(double angle) {
   // Takes x to z.
-  static const HarmonicMatrix<kDegree> quarter = PaperRotationY<kDegree>(EIGEN_PI / 2);
+  static const HarmonicMatrix<kDegree> quarter = PaperRotationY<kDegree>(M_PI / 2);
   return quarter.transpose() * TurnAboutZ<kDegree>("HarmonicRotationX", angle) * quarter;
 }
 

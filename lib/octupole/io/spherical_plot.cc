@@ -23,9 +23,9 @@ SphereGrid MakeSphereGrid(int bands) {
   SphereGrid grid;
   grid.points = {Eigen::Vector3d::UnitZ(), -Eigen::Vector3d::UnitZ()};
   for (int i = 1; i < bands; ++i) {
-    const double polar = EIGEN_PI * i / bands;
+    const double polar = M_PI * i / bands;
     for (int j = 0; j < turns; ++j) {
-      const double azimuth = 2 * EIGEN_PI * j / turns;
+      const double azimuth = 2 * M_PI * j / turns;
       grid.points.push_back(
           {std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar)});
     }

@@ -33,14 +33,14 @@ std::optional<NumberType> FindType(std::string_view name) {
 }
 
 /// The value of each base64 digit, else -1.
-constexpr std::array<signed char, 256> MakeBase64Values() {
-  std::array<signed char, 256> values = {};
-  for (signed char& value : values) {
+constexpr std::array<int, 256> MakeBase64Values() {
+  std::array<int, 256> values = {};
+  for (int& value : values) {
     value = -1;
   }
   constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   for (std::size_t i = 0; i < kDigits.size(); ++i) {
-    values[static_cast<unsigned char>(kDigits[i])] = static_cast<signed char>(i);
+    values[static_cast<unsigned char>(kDigits[i])] = static_cast<int>(i);
   }
   return values;
 }
@@ -71,7 +71,7 @@ class ByteSource {
   }
 
  private:
-  static constexpr std::array<signed char, 256> kValues = MakeBase64Values();
+  static constexpr std::array<int, 256> kValues = MakeBase64Values();
 
   /// Decodes groups of four digits as long as nothing stands between them, at most so many; false if there are none.
   bool DecodeFullGroups(std::size_t max_count) {

@@ -46,7 +46,7 @@ Eigen::Vector3d MeanNormal(const std::vector<SurfaceCorner>& corners) {
 }
 
 bool NormalsAgree(const std::vector<SurfaceCorner>& corners, double angle_deg) {
-  const double min_cosine = std::cos(angle_deg * EIGEN_PI / 180);
+  const double min_cosine = std::cos(angle_deg * M_PI / 180);
   for (auto corner = corners.begin(); corner != corners.end(); ++corner) {
     if (corner->normal.isZero(0)) return false;
     for (auto other = corners.begin(); other != corner; ++other) {

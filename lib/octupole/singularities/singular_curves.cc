@@ -14,7 +14,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kPi = EIGEN_PI;
+constexpr double kPi = M_PI;
 // A curve's valence is defined when the axis of the turn is nearer to its direction than to the directions across.
 constexpr double kMinMeanCosine = 0.7;
 

@@ -19,8 +19,8 @@ using Triangles = std::vector<std::array<int, 3>>;
 
 // Two directions of the fan count as equally near to an axis within this, so that rounding does not choose.
 constexpr double kTie = 1e-6;
-const double kMinNormalCosine = std::cos(EIGEN_PI / 180);
-constexpr double kPi = EIGEN_PI;
+const double kMinNormalCosine = std::cos(M_PI / 180);
+constexpr double kPi = M_PI;
 
 // Side 3 t + i goes from corner i of triangle t to the next, and corner 3 t + i lies between the sides 3 t + i and
 // before that.

@@ -37,7 +37,7 @@ inline bool IsInteger(NumberType type) { return type != NumberType::kFloat32 && 
 /// Calls visit(a number of this type).
 template <typename Visit>
 auto VisitType(NumberType type, const Visit& visit) {
-  switch (type) {
+  switch (type) {  // NOLINT(bugprone-branch-clone): they differ in their types
     case NumberType::kInt8:
       return visit(std::int8_t());
     case NumberType::kUInt8:
