@@ -234,5 +234,47 @@ TEST(AlignToBoundary, RefusesAFeatureAngleOutOfRange) {
   }
 }
 
+// A point in the middle of a ridge along z, whose sides have normals 70 degrees apart and so many triangles each.
+TriangleMesh Ridge(int first_side, int second_side) {
+  TriangleMesh mesh;
+  mesh.points = {{0, 0, 0}, {0, 0, 1}, {0, 0, -1}};
+  for (const auto& [size, slope] : {std::pair(first_side, -35.), std::pair(second_side, 215.)}) {
+    const Vector3d down(std::cos(Radians(slope)), std::sin(Radians(slope)), 0);
+    int last = 1;
+    for (int i = 1; i <= size; ++i) {
+      const double angle = EIGEN_PI * i / size;
+      const int next = i == size ? 2 : static_cast<int>(mesh.points.size());
+      if (i < size) mesh.points.emplace_back(std::cos(angle) * Vector3d::UnitZ() + std::sin(angle) * down);
+      if (slope < 0) {
+        mesh.triangles.push_back({0, last, next});
+      } else {
+        mesh.triangles.push_back({0, next, last});
+      }
+      last = next;
+    }
+  }
+  return mesh;
+}
+
+// Normals count by the angles of their corners, not by their number.
+TEST(AlignToSurface, DoesNotDependOnHowTheSidesOfAnEdgeAreCut) {
+  const Alignment even = AlignToSurface(Ridge(2, 2), 40, OpenBoundary::kFree).alignments[0];
+  ASSERT_EQ(even.kind(), AlignmentKind::kFrame);
+  for (const auto& [first_side, second_side] : {std::pair(2, 7), std::pair(7, 2), std::pair(3, 5)}) {
+    const Alignment uneven = AlignToSurface(Ridge(first_side, second_side), 40, OpenBoundary::kFree).alignments[0];
+    ASSERT_EQ(uneven.kind(), AlignmentKind::kFrame);
+    EXPECT_LT(WorstAngle(uneven.frame(), even.frame()), 1e-6) << first_side << " " << second_side;
+  }
+}
+
+// Three points on a line in the middle of a plane: a triangle of zero area has no normal that could differ.
+TEST(AlignToSurface, SeesNoFeatureAtATriangleOfZeroArea) {
+  const TriangleMesh mesh = {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 1, 0}, {1, -1, 0}},
+                             {{0, 1, 3}, {1, 2, 3}, {0, 2, 1}, {2, 0, 4}}};
+  const BoundaryAlignment alignment = AlignToSurface(mesh, 40, OpenBoundary::kFree);
+  EXPECT_EQ(alignment.num_feature_edges, 0u);
+  EXPECT_EQ(alignment.num_normals, 5u);
+}
+
 }  // namespace
 }  // namespace octupole

@@ -60,6 +60,20 @@ TEST(WriteFileAtomically, KeepsTheOldFileIfTheDiskIsFull) {
   EXPECT_EQ(NumFiles(folder), 1);
 }
 
+TEST(WriteFileAtomically, FollowsLinksAndKeepsThem) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "sub");
+  std::filesystem::create_symlink("sub/second", folder / "first");
+  std::filesystem::create_symlink("../target", folder / "sub/second");
+  EXPECT_EQ(WriteMessage(folder / "first", "new"), "");
+  EXPECT_EQ(ReadText(folder / "target"), "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "first"));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "sub/second"));
+  std::filesystem::create_symlink("circle", folder / "circle");
+  EXPECT_EQ(WriteMessage(folder / "circle", "x"),
+            (folder / "circle").string() + ": cannot be written: Too many levels of symbolic links");
+}
+
 TEST(WriteFileAtomically, NamesWhatIsInTheWay) {
   const TemporaryFolder folder;
   EXPECT_EQ(WriteMessage(folder / "missing/a.txt", "x"),

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "octupole/mesh/box_mesh.h"
+#include "octupole/mesh/mesh_topology.h"
 
 namespace octupole {
 namespace {
@@ -53,6 +54,20 @@ TEST(InspectMesh, AllTetsInverted) {
     std::swap(tet[2], tet[3]);
   }
   EXPECT_THAT(Warnings(mesh), ElementsAre("all tetrahedra are negatively oriented"));
+}
+
+// Far from the origin coordinates are rounded, and with them what is flat.
+TEST(InspectMesh, ZeroVolumeAllowsForTheRoundingOfCoordinates) {
+  TetMesh mesh;
+  for (const Eigen::Vector3d& p :
+       {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0.1, 0.3), Eigen::Vector3d(0.2, 1, 0.7)}) {
+    mesh.points.emplace_back(p);
+  }
+  mesh.points.emplace_back(0.3 * mesh.points[1] + 0.4 * mesh.points[2]);
+  for (Eigen::Vector3d& p : mesh.points) p += Eigen::Vector3d(1e6, 2e6, 3e6);
+  mesh.tets = {{0, 1, 2, 3}};
+  EXPECT_GT(std::abs(SixfoldVolumes(mesh)[0]), 1e-11) << "rounding shows";
+  EXPECT_EQ(InspectMesh(mesh).zero_volume_tets, 1);
 }
 
 TEST(InspectMesh, ZeroVolumeIsRelative) {
