@@ -53,6 +53,7 @@ struct Arguments {
   SolverArguments solver;
   /// If given, it finds the features, whatever the mesh marks.
   std::optional<double> feature_angle;
+  RegionUse regions = RegionUse::kAutomatic;
 };
 
 std::string NameOf(FieldMethod method) {
@@ -90,6 +91,12 @@ void PrintSummary(const Arguments& arguments, const nlohmann::ordered_json& repo
   std::printf("features   %d edges%s, %s\n", features["edges"].get<int>(),
               are_marked ? (" and " + std::to_string(features["points"].get<int>()) + " points").c_str() : "",
               are_marked ? "marked in the mesh" : "by their angle");
+  if (const auto& interfaces = report["interfaces"]; interfaces["faces"] > 0) {
+    std::printf("interfaces %d faces; %d normals, %d frames, %d tangents, %d free; error %.2g degrees\n",
+                interfaces["faces"].get<int>(), interfaces["normals"].get<int>(), interfaces["frames"].get<int>(),
+                interfaces["tangents"].get<int>(), interfaces["free"].get<int>(),
+                interfaces["max_error_deg"].get<double>());
+  }
   std::string method = report["method"];
   if (report.contains("solver")) method += ", " + report["solver"].get<std::string>();
   std::printf("method     %s, degree %d, %d unknowns: %s after %d iterations\n", method.c_str(),
@@ -134,6 +141,7 @@ void RunField(const Arguments& arguments) {
     mesh.feature_points.clear();
   }
   options.method = arguments.method;
+  options.regions = arguments.regions;
   SetSolverOptions(arguments.solver, &progress, &options);
   const std::clock_t cpu_start = std::clock();
   const Field<kDegree> field = SolveField<kDegree>(mesh, options);
@@ -144,6 +152,14 @@ void RunField(const Arguments& arguments) {
                              (field.ceres_summary ? field.ceres_summary->message : "the energy is not finite"));
   }
   SetActivity("measuring and writing the field", mesh.points.size());
+  const Interfaces& interfaces = field.alignment.interfaces;
+  if (const auto more = InterfaceWarningsOfTool(interfaces); !more.empty()) {
+    if (!arguments.solver.quiet) PrintWarnings(arguments.mesh, more);
+    warnings.insert(warnings.end(), more.begin(), more.end());
+  }
+  nlohmann::ordered_json interface_report = DescribeInterfaces(interfaces);
+  interface_report.update(DescribeAlignment(field.alignment.interface_vertices));
+  interface_report["max_error_deg"] = MeasureNormals(mesh.points, interfaces.triangles, field.frames).max_deg;
   const auto boundary = BoundaryTriangles(mesh);
   const auto singular_triangles = FindSingularTriangles(mesh, field.frames);
   const FieldQuality quality = MeasureField(mesh, field.frames, singular_triangles, boundary);
@@ -169,7 +185,9 @@ void RunField(const Arguments& arguments) {
       {"features",
        {{"source", field.alignment.has_marked_features ? "marked" : "angle"},
         {"edges", field.alignment.num_feature_edges},
+        {"seams", field.alignment.num_seam_edges},
         {"points", mesh.feature_points.size()}}},
+      {"interfaces", interface_report},
       {"warnings", warnings},
       {"method", NameOf(arguments.method)},
       {"degree", kDegree},
@@ -243,6 +261,13 @@ void AddFieldCommand(CLI::App* app) {
           "Between normals, above which an edge is a feature; if given, features that the mesh marks are ignored")
       ->check(CLI::Range(1., 179.))
       ->option_text("DEG [40]");
+  const auto add_regions = [&](const char* flag, RegionUse use, const char* what) {
+    return command->add_flag_callback(
+        flag, [arguments, use] { arguments->regions = use; }, what);
+  };
+  add_regions("--ignore-regions", RegionUse::kIgnore, "Follow no surfaces inside the mesh")
+      ->excludes(add_regions("--follow-regions", RegionUse::kFollow,
+                             "Follow all faces between regions and tagged triangles inside, ragged ones too"));
   AddSolverArguments(command, &arguments->solver);
   command->callback([arguments] {
     if (arguments->output.empty()) arguments->output = arguments->mesh.stem().string() + "_field.vtu";

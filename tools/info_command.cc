@@ -14,9 +14,11 @@
 
 #include "activity.h"
 #include "octupole/field/boundary_alignment.h"
+#include "octupole/field/interfaces.h"
 #include "octupole/io/mesh_io.h"
 #include "octupole/mesh/mesh_inspection.h"
 #include "octupole/mesh/mesh_topology.h"
+#include "octupole/mesh/seams.h"
 #include "octupole/singularities/surface_singularities.h"
 #include "output_files.h"
 
@@ -62,9 +64,12 @@ ordered_json DescribeShells(const TetMesh& mesh, const std::vector<std::array<in
   return shells;
 }
 
-ordered_json DescribeFeatures(const TetMesh& mesh, const std::vector<std::array<int, 3>>& triangles) {
+// `surface` is the boundary and the interfaces.
+ordered_json DescribeFeatures(const TetMesh& mesh, const std::vector<std::array<int, 3>>& triangles,
+                              const std::vector<std::array<int, 3>>& surface) {
   return {{"marked_edges", mesh.feature_edges.size()},
           {"marked_points", mesh.feature_points.size()},
+          {"seams", FindSeams(mesh, surface).size()},
           {"sharp_edges", AlignToSurface({mesh.points, triangles}).num_feature_edges}};
 }
 
@@ -78,6 +83,10 @@ ordered_json Describe(const std::filesystem::path& path) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& point : mesh.points) box.extend(point);
   const auto triangles = BoundaryTriangles(mesh);
+  const Interfaces interfaces = FindInterfaces(mesh, triangles);
+  for (std::string& warning : InterfaceWarningsOfTool(interfaces)) warnings.push_back(std::move(warning));
+  auto surface = triangles;
+  surface.insert(surface.end(), interfaces.triangles.begin(), interfaces.triangles.end());
   return {{"mesh", path.string()},
           {"vertices", mesh.points.size()},
           {"edges", MeshEdges(mesh).size()},
@@ -88,7 +97,8 @@ ordered_json Describe(const std::filesystem::path& path) {
           {"components", inspection.components},
           {"boundary_triangles", triangles.size()},
           {"boundary_components", DescribeShells(mesh, triangles)},
-          {"features", DescribeFeatures(mesh, triangles)},
+          {"features", DescribeFeatures(mesh, triangles, surface)},
+          {"interfaces", DescribeInterfaces(interfaces)},
           {"mean_ratio", DescribeQuality(mesh)},
           {"inverted_tets", inspection.inverted_tets},
           {"zero_volume_tets", inspection.zero_volume_tets},
@@ -134,8 +144,14 @@ void Print(const ordered_json& info) {
   std::printf("components  %lld; boundary %zu: %s; %lld triangles\n", count(info, "components"),
               info["boundary_components"].size(), shells.text(), count(info, "boundary_triangles"));
   const auto& features = info["features"];
-  std::printf("features    %lld edges and %lld points marked; %lld edges sharper than 40 degrees\n",
-              count(features, "marked_edges"), count(features, "marked_points"), count(features, "sharp_edges"));
+  std::printf("features    %lld edges (%lld of seams) and %lld points marked; %lld edges sharper than 40 degrees\n",
+              count(features, "marked_edges"), count(features, "seams"), count(features, "marked_points"),
+              count(features, "sharp_edges"));
+  if (const auto& interfaces = info["interfaces"]; interfaces["faces"] > 0) {
+    std::printf("interfaces  %lld faces: %lld between regions, %lld tagged\n", count(interfaces, "faces"),
+                interfaces["between_regions"]["followed"] ? count(interfaces["between_regions"], "faces") : 0,
+                interfaces["tagged"]["followed"] ? count(interfaces["tagged"], "faces") : 0);
+  }
   const auto& quality = info["mean_ratio"];
   std::printf("quality     mean ratio %.3f, least %.3f, largest %.3f\n", quality["mean"].get<double>(),
               quality["min"].get<double>(), quality["max"].get<double>());

@@ -57,11 +57,26 @@ void WriteReport(const path& file, const nlohmann::ordered_json& report) {
   WriteFileAtomically(file, [&](std::ostream& stream) { stream << report.dump(2) << "\n"; });
 }
 
-nlohmann::ordered_json DescribeAlignment(const BoundaryAlignment& alignment) {
-  return {{"normals", alignment.num_normals},
-          {"frames", alignment.num_frames},
-          {"tangents", alignment.num_tangents},
-          {"free", alignment.num_free}};
+nlohmann::ordered_json DescribeAlignment(const AlignmentCounts& counts) {
+  return {{"normals", counts.num_normals},
+          {"frames", counts.num_frames},
+          {"tangents", counts.num_tangents},
+          {"free", counts.num_free}};
+}
+
+nlohmann::ordered_json DescribeInterfaces(const Interfaces& interfaces) {
+  const auto describe = [](const InnerFaces& faces) -> nlohmann::ordered_json {
+    return {{"faces", faces.count}, {"fitting_share", faces.fitting_share}, {"followed", faces.are_followed}};
+  };
+  return {{"faces", interfaces.triangles.size()},
+          {"between_regions", describe(interfaces.between_regions)},
+          {"tagged", describe(interfaces.tagged)}};
+}
+
+std::vector<std::string> InterfaceWarningsOfTool(const Interfaces& interfaces) {
+  std::vector<std::string> warnings = InterfaceWarnings(interfaces);
+  for (std::string& warning : warnings) warning += " (--follow-regions follows all, --ignore-regions none)";
+  return warnings;
 }
 
 }  // namespace octupole

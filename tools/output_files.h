@@ -27,6 +27,12 @@ void CheckOutputs(const std::vector<std::filesystem::path>& inputs, const std::v
 void WriteReport(const std::filesystem::path& file, const nlohmann::ordered_json& report);
 
 /// The section "alignment" of a report.
-nlohmann::ordered_json DescribeAlignment(const BoundaryAlignment& alignment);
+nlohmann::ordered_json DescribeAlignment(const AlignmentCounts& counts);
+
+/// The section "interfaces" of a report: their faces and what they came from.
+nlohmann::ordered_json DescribeInterfaces(const Interfaces& interfaces);
+
+/// InterfaceWarnings, with how to override what they say.
+std::vector<std::string> InterfaceWarningsOfTool(const Interfaces& interfaces);
 
 }  // namespace octupole

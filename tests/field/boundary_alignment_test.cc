@@ -116,8 +116,8 @@ TEST(AlignToBoundary, GivesAcuteWedgesTheirTangentAndBluntOnesTheirNormal) {
 TEST(AlignToBoundary, TakesTheFeatureAngleFromTheCaller) {
   // Two edges of normals 30 degrees apart and two of 150, with three inner vertices each.
   const TetMesh mesh = ShearedBox(150);
-  EXPECT_EQ(AlignToBoundary(mesh, 40).num_tangents, 6u);
-  const BoundaryAlignment strict = AlignToBoundary(mesh, 20);
+  EXPECT_EQ(AlignToBoundary(mesh, {40}).num_tangents, 6u);
+  const BoundaryAlignment strict = AlignToBoundary(mesh, {20});
   EXPECT_EQ(strict.alignments[GridIndex(0, 0, 2)].kind(), AlignmentKind::kAxis);
   EXPECT_NEAR(std::abs(strict.alignments[GridIndex(0, 0, 2)].frame()(2, 2)), 1, 1e-7);
   EXPECT_EQ(strict.num_tangents, 12u);
@@ -230,7 +230,7 @@ TEST(AlignToBoundary, TurnsWithTheMesh) {
 TEST(AlignToBoundary, RefusesAFeatureAngleOutOfRange) {
   const TetMesh mesh = MakeBoxMesh({1, 1, 1}, {1, 1, 1});
   for (const double bad : {0., -1., 180., std::numeric_limits<double>::quiet_NaN()}) {
-    EXPECT_THROW(AlignToBoundary(mesh, bad), std::invalid_argument);
+    EXPECT_THROW(AlignToBoundary(mesh, {bad}), std::invalid_argument);
   }
 }
 

@@ -20,6 +20,8 @@ TetMesh MakeMesh() {
     mesh.feature_edges.push_back({mesh.tets[0][0], mesh.tets[0][i + 1]});
   }
   mesh.feature_points = {0, 7};
+  for (const auto& [a, b, c, d] : mesh.tets) mesh.surface_triangles.push_back({a, b, c});
+  mesh.surface_tags = {1, 1, 2, 3, -1, 0};
   return mesh;
 }
 
@@ -63,6 +65,10 @@ void WriteSeeds(const std::filesystem::path& folder) {
         "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 7 \"x\"\n$EndPhysicalNames\n$Nodes\n2 4 1 9\n"
         "2 2 1 1\n9\n.5 0 0 .5 .5\n3 1 0 3\n1\n2\n3000000000\n0 0 0\n1 0 0\n0 1 1\n$EndNodes\n$Elements\n2 2 1 2\n"
         "2 2 2 1\n1 1 2 9\n3 1 4 1\n2 1 2 9 3000000000\n$EndElements\n");
+  write("gmsh", "second_order",
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n10\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 .5 0 0\n6 .5 .5 0\n"
+        "7 0 .5 0\n8 0 0 .5\n9 0 .5 .5\n10 .5 0 .5\n$EndNodes\n$Elements\n2\n1 9 2 0 3 1 2 3 5 6 7\n"
+        "2 11 2 1 1 1 2 3 4 5 6 7 8 9 10\n$EndElements\n");
   std::filesystem::create_directories(folder / "vtu");
   WriteVtu(folder / "vtu/compressed", mesh, {});
 

@@ -26,6 +26,9 @@ TetMesh MakeMarkedMesh() {
   }
   std::sort(mesh.feature_edges.begin(), mesh.feature_edges.end());
   mesh.feature_points = {0, 5, 11};
+  mesh.surface_triangles = {{mesh.tets[7][3], mesh.tets[7][0], mesh.tets[7][1]},
+                            {mesh.tets[0][0], mesh.tets[0][1], mesh.tets[0][2]}};
+  mesh.surface_tags = {5, -3};
   return mesh;
 }
 
@@ -35,6 +38,8 @@ void ExpectSame(const TetMesh& mesh, const TetMesh& expected) {
   EXPECT_EQ(mesh.regions, expected.regions);
   EXPECT_EQ(mesh.feature_edges, expected.feature_edges);
   EXPECT_EQ(mesh.feature_points, expected.feature_points);
+  EXPECT_EQ(mesh.surface_triangles, expected.surface_triangles);
+  EXPECT_EQ(mesh.surface_tags, expected.surface_tags);
 }
 
 TetMesh MakeTet() {
@@ -241,8 +246,9 @@ TEST_F(Vtu, OtherCells) {
 </Cells></Piece></UnstructuredGrid></VTKFile>)");
   EXPECT_THAT(mesh.tets, ElementsAre(std::array<int, 4>{3, 2, 1, 0}, std::array<int, 4>{0, 1, 2, 3}));
   EXPECT_THAT(mesh.feature_edges, ElementsAre(std::array<int, 2>{2, 3}));
-  EXPECT_THAT(warnings_, ElementsAre("1 hexahedra are left out", "1 polyhedra are left out",
-                                     "1 tetrahedra of higher order are read as their corners"));
+  EXPECT_THAT(mesh.mid_edge_nodes, ElementsAre(std::array{4, 2, 3}, std::array{5, 1, 2}, std::array{6, 1, 3},
+                                               std::array{7, 0, 3}, std::array{8, 0, 2}, std::array{9, 0, 1}));
+  EXPECT_THAT(warnings_, ElementsAre("1 hexahedra are left out", "1 polyhedra are left out"));
 }
 
 TEST_F(Vtu, Errors) {
@@ -326,6 +332,8 @@ TEST_F(MeshIoTest, AllTextFormatsAreReadAlikeInAnyLocale) {
   TetMesh mesh = marked;
   ExpectSame(Read("a.mesh", MeditText(mesh)), mesh);
   mesh.feature_points.clear();
+  mesh.surface_triangles.clear();
+  mesh.surface_tags.clear();
   const TetGenTexts texts = MakeTetGenTexts(mesh);
   WriteText(folder_ / "a.node", texts.nodes);
   WriteText(folder_ / "a.edge", texts.edges);

@@ -38,6 +38,8 @@ TEST_F(MeshIo, Medit) {
   const TetMesh mesh = Read("a.mesh", kMedit);
   ExpectTwoTets(mesh);
   EXPECT_THAT(mesh.regions, ElementsAre(7, -8));
+  EXPECT_THAT(mesh.surface_triangles, ElementsAre(std::array<int, 3>{0, 1, 2}));
+  EXPECT_THAT(mesh.surface_tags, ElementsAre(7));
   EXPECT_THAT(warnings_, IsEmpty());
 }
 
@@ -54,6 +56,22 @@ TEST_F(MeshIo, MeditInOtherLayouts) {
 
 TEST_F(MeshIo, MeditIgnoresWrongCountsOfOtherSections) {
   ExpectTwoTets(Read("a.mesh", Replaced(kMedit, "Triangles\n1\n", "Triangles\n4000000\n")));
+}
+
+TEST_F(MeshIo, MeditSurfaceTagsThatAreWrongAreLeftOut) {
+  for (const auto& [wrong, message] :
+       {std::pair("Triangles\n2\n", ":13: 'Tetrahedra' where a vertex index was expected"),
+        std::pair("Triangles\n0\n", ":12: more triangles than announced"),
+        std::pair("Triangles\n2\n6 1 2 3\n", ":12: vertex index 6 is out of range 1..5")}) {
+    const TetMesh mesh = Read("a.mesh", Replaced(kMedit, "Triangles\n1\n", wrong));
+    ExpectTwoTets(mesh);
+    EXPECT_THAT(mesh.surface_triangles, IsEmpty());
+    EXPECT_THAT(mesh.surface_tags, IsEmpty());
+    EXPECT_THAT(warnings_, ElementsAre("the surface tags are left out: " + (folder_ / "a.mesh").string() + message));
+  }
+  const TetMesh mesh = Read("a.mesh", Replaced(kMedit, "Triangles\n1\n", "Triangles\n2\n4 1 4 8\n"));
+  EXPECT_THAT(mesh.surface_triangles, ElementsAre(std::array<int, 3>{0, 1, 2})) << "one is degenerate";
+  EXPECT_THAT(mesh.surface_tags, ElementsAre(7));
 }
 
 const char kMeditFeatures[] =
@@ -218,8 +236,9 @@ TEST_F(MeshIo, VtkOtherCells) {
                             "CELL_TYPES 5\n24\n12\n13\n14\n10\n");
   EXPECT_EQ(mesh.points.size(), 10);
   EXPECT_THAT(mesh.tets, ElementsAre(std::array<int, 4>{3, 2, 1, 0}, std::array<int, 4>{0, 1, 2, 3}));
-  EXPECT_THAT(warnings_, ElementsAre("1 hexahedra are left out", "1 prisms are left out", "1 pyramids are left out",
-                                     "1 tetrahedra of higher order are read as their corners"));
+  EXPECT_THAT(mesh.mid_edge_nodes, ElementsAre(std::array{4, 2, 3}, std::array{5, 1, 2}, std::array{6, 1, 3},
+                                               std::array{7, 0, 3}, std::array{8, 0, 2}, std::array{9, 0, 1}));
+  EXPECT_THAT(warnings_, ElementsAre("1 hexahedra are left out", "1 prisms are left out", "1 pyramids are left out"));
 }
 
 TEST_F(MeshIo, VtkFeaturesAreLinesAndVertices) {
@@ -258,7 +277,8 @@ TEST_F(MeshIo, VtkErrors) {
   EXPECT_EQ(error("10 5 10", "10 10 10"), "a.vtk:10: a tetrahedron of 3 vertices instead of 4");
   EXPECT_EQ(error("10 5 10", "10 5"), "a.vtk:13: the file ends before all 3 cell types are read");
   EXPECT_EQ(error("CELL_TYPES 3", "CELL_TYPES 2"), "a.vtk:12: 2 cell types for 3 cells");
-  EXPECT_EQ(error("10 5 10", "5 5 12"), "a.vtk: no tetrahedra, only 1 hexahedra, 2 triangles");
+  EXPECT_EQ(error("10 5 10", "22 5 12"), "a.vtk: no tetrahedra, only 1 hexahedra, 2 triangles");
+  EXPECT_EQ(error("10 5 10", "10 5 5"), "a.vtk:11: a triangle of 4 vertices instead of 3");
   EXPECT_EQ(Error("a.vtk", Replaced(kVtk5, "0 4 7 11", "0 4 3 11")),
             "a.vtk:16: offset 3 does not fit behind 4 and before 11");
   EXPECT_EQ(Error("a.vtk", Replaced(kVtk5, "0 4 7 11", "0 4 7 10")),
@@ -385,8 +405,10 @@ TEST_F(MeshIo, GmshOtherElements) {
                    "6 5 1 1 1 2 3 4 5 6 7 9\n$EndElements\n");
   EXPECT_THAT(mesh.tets, ElementsAre(std::array<int, 4>{8, 7, 6, 5}, std::array<int, 4>{0, 1, 2, 3}));
   EXPECT_THAT(mesh.regions, ElementsAre(3, 4));
+  EXPECT_THAT(mesh.mid_edge_nodes, ElementsAre(std::array{4, 5, 6}, std::array{9, 5, 7}))
+      << "without the corners of the other tetrahedron";
   EXPECT_THAT(warnings_, ElementsAre("2 hexahedra are left out", "1 prisms are left out", "1 pyramids are left out",
-                                     "2 tetrahedra of higher order are read as their corners"));
+                                     "1 tetrahedra of higher order are read as their corners"));
 }
 
 TEST_F(MeshIo, GmshErrors) {
@@ -478,7 +500,10 @@ TEST_F(TetGen, ReadsTenNodesAsCorners) {
   EXPECT_EQ(mesh.points.size(), 14);
   EXPECT_THAT(mesh.tets, ElementsAre(std::array<int, 4>{0, 1, 2, 3}, std::array<int, 4>{4, 2, 1, 0}));
   EXPECT_THAT(mesh.feature_edges, ElementsAre(std::array<int, 2>{1, 2}));
-  EXPECT_THAT(warnings_, ElementsAre("2 tetrahedra of higher order are read as their corners"));
+  // As TetGen 1.5 writes them, on the edges 3 4, 1 4, 1 2, 2 3, 2 4 and 1 3. Where the tetrahedra differ, one is kept.
+  EXPECT_THAT(mesh.mid_edge_nodes, ElementsAre(std::array{5, 0, 1}, std::array{6, 0, 1}, std::array{7, 1, 2},
+                                               std::array{8, 1, 2}, std::array{9, 0, 2}, std::array{10, 1, 4}));
+  EXPECT_THAT(warnings_, IsEmpty());
 }
 
 TEST_F(TetGen, MarkedEdgesAreFeatures) {

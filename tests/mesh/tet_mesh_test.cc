@@ -53,6 +53,27 @@ TEST(CheckTetMesh, NamesWhatIsWrong) {
   mesh.feature_edges.clear();
   mesh.feature_points = {0, -1};
   EXPECT_EQ(CheckMessage(mesh), "CheckTetMesh: feature point 1 has the vertex index -1, out of range 0..3");
+
+  mesh = OneTet();
+  mesh.surface_triangles = {{0, 1, 2}};
+  EXPECT_EQ(CheckMessage(mesh), "CheckTetMesh: 0 surface tags for 1 surface triangles");
+  mesh.surface_tags = {1};
+  EXPECT_EQ(CheckMessage(mesh), "");
+  mesh.surface_triangles[0][2] = 4;
+  EXPECT_EQ(CheckMessage(mesh), "CheckTetMesh: surface triangle 0 has the vertex index 4, out of range 0..3");
+
+  mesh = OneTet();
+  mesh.points.emplace_back(0.5, 0, 0);
+  mesh.mid_edge_nodes = {{4, 0, 1}};
+  EXPECT_EQ(CheckMessage(mesh), "");
+  mesh.mid_edge_nodes.push_back({4, 5, 1});
+  EXPECT_EQ(CheckMessage(mesh), "CheckTetMesh: mid-edge node 1 has the vertex index 5, out of range 0..4");
+  for (const std::array<int, 3>& bad : {std::array{2, 0, 1}, std::array{0, 1, 4}}) {
+    mesh.mid_edge_nodes[1] = bad;
+    EXPECT_EQ(CheckMessage(mesh), "CheckTetMesh: mid-edge node 1: vertex " + std::to_string(bad[0]) + " between " +
+                                      std::to_string(bad[1]) + " and " + std::to_string(bad[2]) +
+                                      " is in a tetrahedron, or one of them in none");
+  }
 }
 
 }  // namespace

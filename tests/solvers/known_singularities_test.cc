@@ -138,13 +138,8 @@ TEST_F(KnownSingularitiesCorpus, IndicesSumToTheEulerCharacteristicAndCurvesEnd)
     // The largest would take most of the suite's time.
     if (std::stoi(row.at("nV")) > 100000) continue;
     ++num_meshes;
-    TetMesh mesh = ReadTetMesh(path);
-    // The seams of a smooth surface would turn frames off its normals.
+    const TetMesh mesh = ReadTetMesh(path);
     const bool is_smooth = row.at("sharp_edges_gt60deg") == "0";
-    if (is_smooth) {
-      mesh.feature_edges.clear();
-      mesh.feature_points.clear();
-    }
     FieldOptions<3> options;
     options.minimizer.max_iterations = 20;
     const Structure structure = Solve<3>(mesh, options);

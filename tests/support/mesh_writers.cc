@@ -70,7 +70,7 @@ class File {
 
 int RegionOf(const TetMesh& mesh, std::size_t t) { return mesh.regions.empty() ? 0 : mesh.regions[t]; }
 
-/// The cells of VTK: points, lines, then tetrahedra.
+/// The cells of VTK: points, lines, triangles, then tetrahedra.
 struct Cells {
   std::vector<int> types;
   std::vector<std::int64_t> offsets = {0};
@@ -83,6 +83,9 @@ struct Cells {
     }
     for (const auto& edge : mesh.feature_edges) {
       Add(3, edge, 0);
+    }
+    for (std::size_t t = 0; t < mesh.surface_triangles.size(); ++t) {
+      Add(5, mesh.surface_triangles[t], mesh.surface_tags[t]);
     }
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
       Add(10, mesh.tets[t], RegionOf(mesh, t));
@@ -110,6 +113,15 @@ std::string MeditText(const TetMesh& mesh) {
     file.Line("Edges").Put(mesh.feature_edges.size()).EndLine();
     for (const auto& [a, b] : mesh.feature_edges) {
       file.Put(a + 1).Put(b + 1).Line("1");
+    }
+  }
+  if (!mesh.surface_triangles.empty()) {
+    file.Line("Triangles").Put(mesh.surface_triangles.size()).EndLine();
+    for (std::size_t t = 0; t < mesh.surface_triangles.size(); ++t) {
+      for (const int v : mesh.surface_triangles[t]) {
+        file.Put(v + 1);
+      }
+      file.Put(mesh.surface_tags[t]).EndLine();
     }
   }
   if (!mesh.feature_points.empty()) {
@@ -212,9 +224,10 @@ std::string GmshFile2(const TetMesh& mesh, Encoding encoding) {
   }
   const std::size_t num_features = mesh.feature_points.size() + mesh.feature_edges.size();
   file.Line((file.is_text() ? "" : "\n") + std::string("$EndNodes\n$Elements\n") +
-            std::to_string(num_features + mesh.tets.size()));
+            std::to_string(num_features + mesh.surface_triangles.size() + mesh.tets.size()));
   std::int32_t number = 0;
-  const auto put = [&](std::int32_t type, std::size_t count, int region, const auto& vertices, bool is_first) {
+  const auto put = [&](std::int32_t type, std::size_t count, int region, const auto& vertices, bool is_first,
+                       int entity = 1) {
     if (file.is_text()) {
       file.Put(++number).Put(type).Put(2);
     } else {
@@ -223,7 +236,7 @@ std::string GmshFile2(const TetMesh& mesh, Encoding encoding) {
       }
       file.Put(++number);
     }
-    file.Put(static_cast<std::int32_t>(region)).Put(std::int32_t(1));
+    file.Put(static_cast<std::int32_t>(region)).Put(static_cast<std::int32_t>(entity));
     for (const int v : vertices) {
       file.Put(static_cast<std::int32_t>(v + 1));
     }
@@ -235,8 +248,11 @@ std::string GmshFile2(const TetMesh& mesh, Encoding encoding) {
   for (std::size_t i = 0; i < mesh.feature_edges.size(); ++i) {
     put(1, mesh.feature_edges.size(), 0, mesh.feature_edges[i], i == 0);
   }
+  for (std::size_t t = 0; t < mesh.surface_triangles.size(); ++t) {
+    put(2, mesh.surface_triangles.size(), 99, mesh.surface_triangles[t], t == 0, mesh.surface_tags[t]);
+  }
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    put(4, mesh.tets.size(), RegionOf(mesh, t), mesh.tets[t], t == 0);
+    put(4, mesh.tets.size(), RegionOf(mesh, t), mesh.tets[t], t == 0, RegionOf(mesh, t));
   }
   return file.Line((file.is_text() ? "" : "\n") + std::string("$EndElements")).Take();
 }
@@ -273,8 +289,9 @@ std::string GmshFile4(const TetMesh& mesh, Encoding encoding) {
   }
   file.Line((file.is_text() ? "" : "\n") + std::string("$EndNodes\n$Elements"));
   const Size num_features = mesh.feature_points.size() + mesh.feature_edges.size();
-  const Size num_elements = num_features + mesh.tets.size();
-  const Size num_blocks = !mesh.feature_points.empty() + !mesh.feature_edges.empty() + tets_of_region.size();
+  const Size num_elements = num_features + mesh.surface_triangles.size() + mesh.tets.size();
+  const Size num_blocks = !mesh.feature_points.empty() + !mesh.feature_edges.empty() + mesh.surface_triangles.size() +
+                          tets_of_region.size();
   file.Put(num_blocks).Put(num_elements).Put(Size(1)).Put(num_elements).EndTextLine();
   Size number = 0;
   const auto begin_block = [&](int dimension, std::int32_t entity, int type, std::size_t size) {
@@ -298,6 +315,11 @@ std::string GmshFile4(const TetMesh& mesh, Encoding encoding) {
     for (const auto& edge : mesh.feature_edges) {
       put(edge);
     }
+  }
+  // A block each, so that they keep their order.
+  for (std::size_t t = 0; t < mesh.surface_triangles.size(); ++t) {
+    begin_block(2, mesh.surface_tags[t], 2, 1);
+    put(mesh.surface_triangles[t]);
   }
   volume = 0;
   for (const auto& [region, tets] : tets_of_region) {

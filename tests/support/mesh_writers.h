@@ -7,7 +7,7 @@
 namespace octupole {
 
 // Files of the formats that octupole reads, for tests, fuzzing and benchmarks. They hold all of a mesh that the format
-// can: regions, and features as lines and points.
+// can: regions, features as lines and points, and tagged triangles.
 
 std::string MeditText(const TetMesh& mesh);
 std::string TetText(const TetMesh& mesh);

@@ -10,9 +10,12 @@
 #include <sstream>
 #include <string>
 
+#include "ball_in_box_mesh.h"
 #include "command_line.h"
 #include "corpus.h"
 #include "cylinder_mesh.h"
+#include "mesh_writers.h"
+#include "octupole/mesh/mesh_topology.h"
 #include "octupole/version.h"
 #include "test_files.h"
 
@@ -22,6 +25,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 Outcome RunField(const std::string& arguments) { return Shell(OCTUPOLE_COMMAND " field " + arguments); }
 
@@ -86,6 +90,40 @@ TEST(FieldCommand, WritesFieldReportAndSummary) {
     EXPECT_EQ(field["alignments"][1], normals_and_tangents);
     EXPECT_EQ(field["alignments"][2], alignment["frames"]);
   }
+}
+
+// One number per tet is no material; asked for, it is followed all the same.
+TEST(FieldCommand, ReportsInterfacesAndWarnsOfRegionsThatAreNone) {
+  const TemporaryFolder folder;
+  TetMesh mesh = MakeBallInBoxMesh(8);
+  WriteText(folder / "ball.mesh", MeditText(mesh));
+  const std::string files = " --output " + Quoted(folder / "field.vtu") + " --report " + Quoted(folder / "report.json");
+  const Outcome followed = RunField(Quoted(folder / "ball.mesh") + files);
+  ASSERT_EQ(followed.exit_code, 0) << followed.err;
+  EXPECT_THAT(followed.err, IsEmpty());
+  EXPECT_THAT(followed.out, HasSubstr("interfaces 192 faces; 98 normals, 0 frames, 0 tangents, 0 free; error "));
+  json interfaces = ReadReport(folder / "report.json")["interfaces"];
+  EXPECT_EQ(interfaces["faces"], 192);
+  EXPECT_EQ(interfaces["normals"], 98);
+  EXPECT_LT(interfaces["max_error_deg"], 1e-6);
+
+  const Outcome ignored = RunField(Quoted(folder / "ball.mesh") + files + " --ignore-regions");
+  ASSERT_EQ(ignored.exit_code, 0) << ignored.err;
+  EXPECT_THAT(ignored.out, Not(HasSubstr("interfaces")));
+  EXPECT_EQ(ReadReport(folder / "report.json")["interfaces"]["faces"], 0);
+
+  for (std::size_t t = 0; t < mesh.regions.size(); ++t) mesh.regions[t] = static_cast<int>(t);
+  WriteText(folder / "numbers.mesh", MeditText(mesh));
+  const Outcome numbers = RunField(Quoted(folder / "numbers.mesh") + files);
+  ASSERT_EQ(numbers.exit_code, 0) << numbers.err;
+  EXPECT_THAT(numbers.err, HasSubstr("between the 3072 regions are taken for no interfaces"));
+  EXPECT_THAT(numbers.err, HasSubstr("--follow-regions"));
+  EXPECT_EQ(ReadReport(folder / "report.json")["interfaces"]["faces"], 0);
+  EXPECT_EQ(ReadReport(folder / "report.json")["warnings"].size(), 1u);
+  const Outcome forced = RunField(Quoted(folder / "numbers.mesh") + files + " --follow-regions --quiet");
+  ASSERT_EQ(forced.exit_code, 0) << forced.err;
+  EXPECT_EQ(ReadReport(folder / "report.json")["interfaces"]["faces"], MeshTriangles(mesh).size() - 768);
+  EXPECT_EQ(RunField(Quoted(folder / "ball.mesh") + files + " --follow-regions --ignore-regions").exit_code, 2);
 }
 
 // A cylinder's four curves, as meshio reads them.

@@ -7,8 +7,11 @@
 #include <cstdio>
 #include <string>
 
+#include "ball_in_box_mesh.h"
 #include "command_line.h"
 #include "corpus.h"
+#include "mesh_writers.h"
+#include "octupole/mesh/mesh_topology.h"
 
 namespace octupole {
 namespace {
@@ -49,6 +52,33 @@ TEST(InfoCommand, SaysWhatIsOdd) {
   EXPECT_THAT(outcome.out, HasSubstr("warning     1 tetrahedron is inverted"));
   EXPECT_THAT(outcome.out, HasSubstr("warning     1 vertex belongs to no tetrahedron"));
   EXPECT_THAT(RunInfo(Quoted(folder / "odd.mesh") + " --quiet").out, IsEmpty());
+}
+
+TEST(InfoCommand, CountsInterfacesSeamsAndMidEdgeNodes) {
+  const TemporaryFolder folder;
+  TetMesh mesh = MakeBallInBoxMesh(8);
+  const auto boundary = BoundaryTriangles(mesh);
+  mesh.surface_triangles = boundary;
+  mesh.surface_tags.assign(boundary.size(), 4);
+  // On the bottom of the box, and inside.
+  mesh.feature_edges = {{10, 11}, {11, 20}, {364, 365}};
+  WriteText(folder / "ball.mesh", MeditText(mesh));
+  const Outcome outcome = RunInfo(Quoted(folder / "ball.mesh") + " --report " + Quoted(folder / "info.json"));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("features    3 edges (2 of seams)"));
+  EXPECT_THAT(outcome.out, HasSubstr("interfaces  192 faces: 192 between regions, 0 tagged"));
+  const json info = ReadReport(folder / "info.json");
+  EXPECT_EQ(info["features"]["seams"], 2);
+  EXPECT_EQ(info["interfaces"]["faces"], 192);
+  EXPECT_EQ(info["interfaces"]["between_regions"]["followed"], true);
+
+  WriteText(
+      folder / "second.msh",
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n11\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 .5 0 0\n6 .5 .5 0\n"
+      "7 0 .5 0\n8 0 0 .5\n9 0 .5 .5\n10 .5 0 .5\n11 9 9 9\n$EndNodes\n$Elements\n1\n"
+      "1 11 2 1 1 1 2 3 4 5 6 7 8 9 10\n$EndElements\n");
+  const Outcome second_order = RunInfo(Quoted(folder / "second.msh"));
+  EXPECT_THAT(second_order.out, HasSubstr("warning     1 vertex belongs to no tetrahedron"));
 }
 
 TEST(InfoCommand, RefusesBadInputAndUsage) {

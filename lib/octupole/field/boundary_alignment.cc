@@ -10,16 +10,20 @@
 #include <stdexcept>
 #include <utility>
 
+#include "octupole/field/internal/averaged_projector.h"
 #include "octupole/frames/frame.h"
 #include "octupole/frames/internal/symmetric_eigen.h"
+#include "octupole/mesh/mesh_topology.h"
+#include "octupole/mesh/seams.h"
 #include "octupole/mesh/surface_corners.h"
 
 namespace octupole {
 namespace {
 
 using internal::DecomposeSymmetric;
+using internal::Matrix7;
 using internal::SymmetricEigen;
-using Matrix7 = Eigen::Matrix<double, 7, 7>;
+using internal::WithNormal;
 using AxisBasis = Eigen::Matrix<double, 7, 2>;
 
 // Above this lowest eigenvalue no frame is near all the normals. The worst even split of a straight edge, normals at
@@ -61,16 +65,11 @@ struct CommonAlignment {
 };
 
 CommonAlignment FindCommonAlignment(const std::vector<SurfaceCorner>& corners) {
-  Matrix7 conflict = Matrix7::Zero();
+  const Matrix7 conflict = internal::AveragedProjector(corners);
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  double total = 0;
   for (const SurfaceCorner& corner : corners) {
-    const AxisBasis basis = BasisOfAxis(corner.normal);
-    conflict += corner.angle * (Matrix7::Identity() - basis * basis.transpose());
     spread += corner.angle * corner.normal * corner.normal.transpose();
-    total += corner.angle;
   }
-  conflict /= total;
   const SymmetricEigen eigen = DecomposeSymmetric(conflict);
   const Octupole lowest = eigen.vectors.col(0);
   CommonAlignment common;
@@ -84,15 +83,10 @@ CommonAlignment FindCommonAlignment(const std::vector<SurfaceCorner>& corners) {
   return common;
 }
 
-std::vector<SurfaceCorner> WithNormal(std::vector<SurfaceCorner> corners) {
-  const auto has_none = [](const SurfaceCorner& corner) { return corner.normal.isZero(0); };
-  corners.erase(std::remove_if(corners.begin(), corners.end(), has_none), corners.end());
-  return corners;
-}
-
-// The edges between triangles whose normals differ by more than the angle.
+// The edges of at least `min_faces` triangles between which normals differ by more than the angle.
 std::vector<std::array<int, 2>> SharpEdges(const std::vector<Eigen::Vector3d>& points,
-                                           const std::vector<std::array<int, 3>>& triangles, double feature_angle_deg) {
+                                           const std::vector<std::array<int, 3>>& triangles, double feature_angle_deg,
+                                           int min_faces = 2) {
   const double min_cosine = std::cos(feature_angle_deg * M_PI / 180);
   struct Side {
     int a, b;
@@ -121,7 +115,7 @@ std::vector<std::array<int, 2>> SharpEdges(const std::vector<Eigen::Vector3d>& p
         is_feature |= s->normal.dot(t->normal) < min_cosine;
       }
     }
-    if (is_feature) edges.push_back({first->a, first->b});
+    if (is_feature && last - first >= min_faces) edges.push_back({first->a, first->b});
     first = last;
   }
   return edges;
@@ -168,14 +162,26 @@ std::vector<SurfaceCorner> WithEqualWeights(const std::vector<Eigen::Vector3d>& 
   return corners;
 }
 
-}  // namespace
+// What AlignToSurface finds at a vertex.
+enum class VertexCase { kNone, kNormal, kFrame, kTangent, kFree };
 
-BoundaryAlignment AlignToSurface(const TriangleMesh& surface, double feature_angle_deg, OpenBoundary open_boundary) {
-  if (!(feature_angle_deg > 0 && feature_angle_deg < 180)) {
-    std::ostringstream message;
-    message << "AlignToSurface: the feature angle must lie between 0 and 180 degrees, not " << feature_angle_deg;
-    throw std::invalid_argument(message.str());
-  }
+void Count(VertexCase vertex_case, AlignmentCounts* counts) {
+  counts->num_normals += vertex_case == VertexCase::kNormal;
+  counts->num_frames += vertex_case == VertexCase::kFrame;
+  counts->num_tangents += vertex_case == VertexCase::kTangent;
+  counts->num_free += vertex_case == VertexCase::kFree;
+}
+
+void CheckFeatureAngle(double feature_angle_deg) {
+  if (feature_angle_deg > 0 && feature_angle_deg < 180) return;
+  std::ostringstream message;
+  message << "AlignToSurface: the feature angle must lie between 0 and 180 degrees, not " << feature_angle_deg;
+  throw std::invalid_argument(message.str());
+}
+
+// AlignToSurface; `cases` become those of the vertices.
+BoundaryAlignment AlignVertices(const TriangleMesh& surface, double feature_angle_deg, OpenBoundary open_boundary,
+                                std::vector<VertexCase>* cases) {
   const std::vector<Eigen::Vector3d>& points = surface.points;
   const auto corners_of = SurfaceCorners(points, surface.triangles);
   BoundaryAlignment result;
@@ -190,21 +196,22 @@ BoundaryAlignment AlignToSurface(const TriangleMesh& surface, double feature_ang
   const auto directions_of = FeatureDirections(points, edges);
 
   result.alignments.resize(points.size());
+  cases->assign(points.size(), VertexCase::kNone);
   for (std::size_t v = 0; v < points.size(); ++v) {
     const std::vector<Eigen::Vector3d>& directions = directions_of[v];
-    const auto prescribe = [&](const Alignment& alignment, std::size_t* count) {
+    const auto prescribe = [&](const Alignment& alignment, VertexCase vertex_case) {
       result.alignments[v] = alignment;
-      ++*count;
+      (*cases)[v] = vertex_case;
     };
     const auto tangent = FindLine(directions);
     if (corners_of[v].empty()) {
       if (directions.empty()) continue;
       if (tangent) {
-        prescribe(Alignment::Axis(*tangent), &result.num_tangents);
+        prescribe(Alignment::Axis(*tangent), VertexCase::kTangent);
       } else if (const auto frame = FindCommonAlignment(WithEqualWeights(directions)).frame) {
-        prescribe(Alignment::Frame(*frame), &result.num_frames);
+        prescribe(Alignment::Frame(*frame), VertexCase::kFrame);
       } else {
-        ++result.num_free;
+        (*cases)[v] = VertexCase::kFree;
       }
       continue;
     }
@@ -218,22 +225,71 @@ BoundaryAlignment AlignToSurface(const TriangleMesh& surface, double feature_ang
       common = FindCommonAlignment(corners);
     }
     if (common.frame) {
-      prescribe(Alignment::Frame(*common.frame), &result.num_frames);
+      prescribe(Alignment::Frame(*common.frame), VertexCase::kFrame);
     } else if (is_smooth) {
-      prescribe(Alignment::Axis(mean_normal), &result.num_normals);
+      prescribe(Alignment::Axis(mean_normal), VertexCase::kNormal);
     } else if (tangent) {
-      prescribe(Alignment::Axis(*tangent), &result.num_tangents);
+      prescribe(Alignment::Axis(*tangent), VertexCase::kTangent);
     } else if (common.axis && directions.empty()) {
-      prescribe(Alignment::Axis(*common.axis), &result.num_normals);
+      prescribe(Alignment::Axis(*common.axis), VertexCase::kNormal);
     } else {
-      ++result.num_free;
+      (*cases)[v] = VertexCase::kFree;
     }
   }
+  for (const VertexCase vertex_case : *cases) Count(vertex_case, &result);
   return result;
 }
 
-BoundaryAlignment AlignToBoundary(const TetMesh& mesh, double feature_angle_deg) {
-  return AlignToSurface(BoundarySurface(mesh), feature_angle_deg);
+void RemoveEdges(const std::vector<std::array<int, 2>>& sorted, std::vector<std::array<int, 2>>* edges) {
+  const auto is_in = [&](const std::array<int, 2>& edge) {
+    return std::binary_search(sorted.begin(), sorted.end(),
+                              std::array{std::min(edge[0], edge[1]), std::max(edge[0], edge[1])});
+  };
+  edges->erase(std::remove_if(edges->begin(), edges->end(), is_in), edges->end());
+}
+
+// Marks the sharp edges at which an interface meets another or the boundary, as far as they are not.
+void AddJunctions(const Interfaces& interfaces, double feature_angle_deg, TriangleMesh* surface) {
+  const auto edges_of_interfaces = MeshEdges(TriangleMesh{surface->points, interfaces.triangles});
+  auto junctions = SharpEdges(surface->points, surface->triangles, feature_angle_deg, 3);
+  const auto is_of_none = [&](const std::array<int, 2>& edge) {
+    return !std::binary_search(edges_of_interfaces.begin(), edges_of_interfaces.end(), edge);
+  };
+  junctions.erase(std::remove_if(junctions.begin(), junctions.end(), is_of_none), junctions.end());
+  RemoveEdges(junctions, &surface->feature_edges);
+  surface->feature_edges.insert(surface->feature_edges.end(), junctions.begin(), junctions.end());
+}
+
+}  // namespace
+
+BoundaryAlignment AlignToSurface(const TriangleMesh& surface, double feature_angle_deg, OpenBoundary open_boundary) {
+  CheckFeatureAngle(feature_angle_deg);
+  std::vector<VertexCase> cases;
+  return AlignVertices(surface, feature_angle_deg, open_boundary, &cases);
+}
+
+BoundaryAlignment AlignToBoundary(const TetMesh& mesh, const BoundaryOptions& options) {
+  CheckFeatureAngle(options.feature_angle_deg);
+  TriangleMesh surface = BoundarySurface(mesh);
+  Interfaces interfaces = FindInterfaces(mesh, surface.triangles, options.regions, options.feature_angle_deg);
+  surface.triangles.insert(surface.triangles.end(), interfaces.triangles.begin(), interfaces.triangles.end());
+  const auto seams = FindSeams(mesh, surface.triangles, options.feature_angle_deg);
+  RemoveEdges(seams, &surface.feature_edges);
+  if (!interfaces.triangles.empty() && !surface.feature_edges.empty()) {
+    AddJunctions(interfaces, options.feature_angle_deg, &surface);
+  }
+  std::vector<VertexCase> cases;
+  BoundaryAlignment result = AlignVertices(surface, options.feature_angle_deg, OpenBoundary::kAligned, &cases);
+  result.num_seam_edges = seams.size();
+  std::vector<bool> is_on_interface(mesh.points.size(), false);
+  for (const std::array<int, 3>& triangle : interfaces.triangles) {
+    for (const int v : triangle) is_on_interface[v] = true;
+  }
+  for (std::size_t v = 0; v < cases.size(); ++v) {
+    if (is_on_interface[v]) Count(cases[v], &result.interface_vertices);
+  }
+  result.interfaces = std::move(interfaces);
+  return result;
 }
 
 }  // namespace octupole

@@ -4,15 +4,14 @@
 #include <vector>
 
 #include "octupole/field/alignment.h"
+#include "octupole/field/interfaces.h"
 #include "octupole/mesh/tet_mesh.h"
 #include "octupole/mesh/triangle_mesh.h"
 
 namespace octupole {
 
-/// How a surface, such as the boundary of a mesh, aligns the vertices, and how many came under each case.
-struct BoundaryAlignment {
-  /// One per point; those off the surface are free, but for marked edges.
-  std::vector<Alignment> alignments;
+/// How many vertices came under each case of AlignToSurface.
+struct AlignmentCounts {
   /// Smooth vertices: one axis along the angle-weighted normal.
   std::size_t num_normals = 0;
   /// Transversal feature edges and corners: the whole frame.
@@ -21,9 +20,21 @@ struct BoundaryAlignment {
   std::size_t num_tangents = 0;
   /// Tips: vertices where nothing fits.
   std::size_t num_free = 0;
+};
+
+/// How a surface, such as the boundary of a mesh, aligns the vertices, and how many came under each case.
+struct BoundaryAlignment : AlignmentCounts {
+  /// One per point; those off the surface are free, but for marked edges.
+  std::vector<Alignment> alignments;
   /// Whether features were marked, or found by their angle; and how many feature edges there are.
   bool has_marked_features = false;
   std::size_t num_feature_edges = 0;
+  // Of a tet mesh:
+  /// Marked edges that are seams (FindSeams), which prescribe nothing and are no feature edges.
+  std::size_t num_seam_edges = 0;
+  /// The surfaces inside, and of the above the vertices on them.
+  Interfaces interfaces;
+  AlignmentCounts interface_vertices;
 };
 
 /// Whether the edges at which a surface is open align the field.
@@ -56,7 +67,18 @@ enum class OpenBoundary { kAligned, kFree };
 BoundaryAlignment AlignToSurface(const TriangleMesh& surface, double feature_angle_deg = 40,
                                  OpenBoundary open_boundary = OpenBoundary::kAligned);
 
-/// AlignToSurface of the BoundarySurface.
-BoundaryAlignment AlignToBoundary(const TetMesh& mesh, double feature_angle_deg = 40);
+struct BoundaryOptions {
+  double feature_angle_deg = 40;
+  RegionUse regions = RegionUse::kAutomatic;
+};
+
+/// AlignToSurface of one surface that consists of the boundary and the interfaces inside the mesh (FindInterfaces): so
+/// an interface aligns its vertices as the boundary does, and where interfaces meet each other or the boundary, the
+/// rule for sharp edges and corners holds. Seams among the marked edges (FindSeams) do not count as marked. Where
+/// others are marked, so are the sharp edges at which an interface meets another or the boundary, whether the file
+/// marks them or not.
+/// \param mesh satisfies CheckTetMesh().
+/// \throw std::invalid_argument unless 0 < feature_angle_deg < 180.
+BoundaryAlignment AlignToBoundary(const TetMesh& mesh, const BoundaryOptions& options = {});
 
 }  // namespace octupole

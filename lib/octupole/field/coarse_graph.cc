@@ -119,7 +119,7 @@ std::vector<int> BreadthFirstOrder(const FieldGraph& graph) {
   order.reserve(num_vertices);
   std::vector<bool> is_reached(num_vertices, false);
   for (int root = 0; root < num_vertices; ++root) {
-    if (is_reached[root]) continue;
+    if (is_reached[root] || neighbourhoods.begin(root) == neighbourhoods.end(root)) continue;
     is_reached[root] = true;
     std::size_t next = order.size();
     order.push_back(root);
@@ -136,7 +136,8 @@ std::vector<int> BreadthFirstOrder(const FieldGraph& graph) {
 }
 
 FieldGraph Reorder(const FieldGraph& graph, const std::vector<int>& order) {
-  std::vector<int> number(order.size());
+  constexpr int kLeftOut = -1;
+  std::vector<int> number(graph.num_vertices(), kLeftOut);
   FieldGraph result;
   result.alignments.reserve(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
@@ -144,7 +145,10 @@ FieldGraph Reorder(const FieldGraph& graph, const std::vector<int>& order) {
     result.alignments.push_back(graph.alignments[order[i]]);
   }
   result.edges.reserve(graph.edges.size());
-  for (const WeightedEdge& edge : graph.edges) result.edges.push_back({number[edge.a], number[edge.b], edge.weight});
+  for (const WeightedEdge& edge : graph.edges) {
+    if (number[edge.a] == kLeftOut || number[edge.b] == kLeftOut) continue;
+    result.edges.push_back({number[edge.a], number[edge.b], edge.weight});
+  }
   return result;
 }
 

@@ -8,10 +8,11 @@
 namespace octupole {
 
 /// The vertices of a graph in breadth-first order, component after component: numbered so, neighbours come close
-/// together in memory. Edges of weight 0 do not count.
+/// together in memory. Edges of weight 0 do not count, and vertices without others are left out.
 std::vector<int> BreadthFirstOrder(const FieldGraph& graph);
 
-/// The same graph with its vertices renumbered: vertex i of the result is vertex order[i]. `order` is a permutation.
+/// The same graph with its vertices renumbered: vertex i of the result is vertex order[i]. `order` holds vertices once
+/// each; edges of those that it leaves out are left out, too.
 FieldGraph Reorder(const FieldGraph& graph, const std::vector<int>& order);
 
 /// A smaller graph, whose vertices are clusters of some eight neighbouring vertices of a finer one.

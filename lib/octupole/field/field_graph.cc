@@ -20,7 +20,14 @@ FieldGraph GraphOfMesh(const Mesh& mesh, std::vector<Alignment> alignments) {
   }
   FieldGraph graph;
   graph.alignments = std::move(alignments);
-  for (const auto& [a, b] : MeshEdges(mesh)) graph.edges.push_back({a, b, 1});
+  std::vector<bool> has_edge(mesh.points.size(), false);
+  for (const auto& [a, b] : MeshEdges(mesh)) {
+    graph.edges.push_back({a, b, 1});
+    has_edge[a] = has_edge[b] = true;
+  }
+  for (std::size_t v = 0; v < has_edge.size(); ++v) {
+    if (!has_edge[v]) graph.alignments[v] = Alignment::Frame(graph.alignments[v].frame());
+  }
   return graph;
 }
 

@@ -26,7 +26,9 @@ struct FieldGraph {
   std::size_t num_vertices() const { return alignments.size(); }
 };
 
-/// The graph of a tet mesh: its vertices and edges in the order of MeshEdges, each edge of weight 1.
+/// The graph of a tet mesh: its vertices and edges in the order of MeshEdges, each edge of weight 1. Points of no
+/// tetrahedron have nothing to be smooth with and become no unknowns: their frame is prescribed, one that their
+/// alignment allows.
 /// \throw std::invalid_argument unless there is one alignment per point.
 FieldGraph MakeFieldGraph(const TetMesh& mesh, std::vector<Alignment> alignments);
 

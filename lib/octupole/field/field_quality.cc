@@ -15,11 +15,24 @@ namespace {
 
 constexpr double kSmoothAngleDeg = 35;
 
-void MeasureBoundary(const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& frames,
-                     const std::vector<std::array<int, 3>>& triangles, FieldQuality* quality) {
-  const auto corners_of = SurfaceCorners(mesh.points, triangles);
+void CheckFrames(const char* caller, const std::vector<Eigen::Vector3d>& points,
+                 const std::vector<Eigen::Matrix3d>& frames) {
+  if (frames.size() == points.size()) return;
+  std::ostringstream message;
+  message << caller << ": " << frames.size() << " frames for " << points.size() << " points";
+  throw std::invalid_argument(message.str());
+}
+
+}  // namespace
+
+NormalErrors MeasureNormals(const std::vector<Eigen::Vector3d>& points,
+                            const std::vector<std::array<int, 3>>& triangles,
+                            const std::vector<Eigen::Matrix3d>& frames) {
+  CheckFrames("MeasureNormals", points, frames);
+  const auto corners_of = SurfaceCorners(points, triangles);
+  NormalErrors errors;
   double sum_of_squares = 0;
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+  for (std::size_t v = 0; v < points.size(); ++v) {
     if (corners_of[v].empty() || !NormalsAgree(corners_of[v], kSmoothAngleDeg)) continue;
     const Eigen::Vector3d normal = MeanNormal(corners_of[v]);
     double angle = M_PI;
@@ -29,32 +42,24 @@ void MeasureBoundary(const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& fr
     }
     angle *= 180 / M_PI;
     sum_of_squares += angle * angle;
-    quality->boundary_max_deg = std::max(quality->boundary_max_deg, angle);
-    ++quality->smooth_boundary_vertices;
+    errors.max_deg = std::max(errors.max_deg, angle);
+    ++errors.smooth_vertices;
   }
-  if (quality->smooth_boundary_vertices > 0) {
-    quality->boundary_rms_deg = std::sqrt(sum_of_squares / static_cast<double>(quality->smooth_boundary_vertices));
+  if (errors.smooth_vertices > 0) {
+    errors.rms_deg = std::sqrt(sum_of_squares / static_cast<double>(errors.smooth_vertices));
   }
+  return errors;
 }
-
-void CheckFrames(const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& frames) {
-  if (frames.size() == mesh.points.size()) return;
-  std::ostringstream message;
-  message << "MeasureField: " << frames.size() << " frames for " << mesh.points.size() << " points";
-  throw std::invalid_argument(message.str());
-}
-
-}  // namespace
 
 FieldQuality MeasureField(const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& frames) {
-  CheckFrames(mesh, frames);
+  CheckFrames("MeasureField", mesh.points, frames);
   return MeasureField(mesh, frames, FindSingularTriangles(mesh, frames), BoundaryTriangles(mesh));
 }
 
 FieldQuality MeasureField(const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& frames,
                           const std::vector<SingularTriangle>& singular_triangles,
                           const std::vector<std::array<int, 3>>& boundary_triangles) {
-  CheckFrames(mesh, frames);
+  CheckFrames("MeasureField", mesh.points, frames);
   FieldQuality quality;
   for (const auto& [a, b] : MeshEdges(mesh)) {
     ++quality.edges;
@@ -65,7 +70,10 @@ FieldQuality MeasureField(const TetMesh& mesh, const std::vector<Eigen::Matrix3d
     ++quality.singular_triangles;
     ++quality.singular_triangles_of_type[static_cast<std::size_t>(triangle.type)];
   }
-  MeasureBoundary(mesh, frames, boundary_triangles, &quality);
+  const NormalErrors boundary = MeasureNormals(mesh.points, boundary_triangles, frames);
+  quality.boundary_rms_deg = boundary.rms_deg;
+  quality.boundary_max_deg = boundary.max_deg;
+  quality.smooth_boundary_vertices = boundary.smooth_vertices;
   return quality;
 }
 

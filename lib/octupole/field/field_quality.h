@@ -10,6 +10,23 @@
 
 namespace octupole {
 
+/// How far the axes are from the normals of a surface.
+struct NormalErrors {
+  /// Smooth vertices: those at which all normals of incident triangles are within 35 degrees of each other and no such
+  /// triangle has zero area.
+  std::size_t smooth_vertices = 0;
+  /// Over these the angle in degrees between the angle-weighted normal and the nearest axis.
+  double rms_deg = 0;
+  double max_deg = 0;
+};
+
+/// \param frames one rotation per point, its columns the axes.
+/// \param triangles neighbours oriented alike, such as BoundaryTriangles or those of Interfaces.
+/// \throw std::invalid_argument unless there is one frame per point.
+NormalErrors MeasureNormals(const std::vector<Eigen::Vector3d>& points,
+                            const std::vector<std::array<int, 3>>& triangles,
+                            const std::vector<Eigen::Matrix3d>& frames);
+
 /// What can be said of a field of frames on a tet mesh without knowing how it was computed. The same numbers for any
 /// method and any degree, so fields can be compared by them.
 struct FieldQuality {
@@ -17,9 +34,7 @@ struct FieldQuality {
   /// Sum over the mesh's edges of FrameDifference<3> and FrameDifference<4>.
   double energy3 = 0;
   double energy4 = 0;
-  /// The angle in degrees between the angle-weighted normal and the nearest axis, over the smooth boundary vertices:
-  /// those at which all normals of incident boundary faces are within 35 degrees of each other and no such face has
-  /// zero area.
+  /// The NormalErrors of the boundary.
   double boundary_rms_deg = 0;
   double boundary_max_deg = 0;
   std::size_t smooth_boundary_vertices = 0;

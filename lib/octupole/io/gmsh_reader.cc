@@ -11,7 +11,7 @@
 namespace octupole::internal {
 namespace {
 
-enum class Kind { kPoint, kLine, kTet, kOther };
+enum class Kind { kPoint, kLine, kTriangle, kTet, kOther };
 
 /// A type of elements, of which the corners are the first nodes.
 struct ElementType {
@@ -34,14 +34,14 @@ constexpr ElementType kElementTypes[] = {
     {29, 20, Kind::kTet},
     {30, 35, Kind::kTet},
     {31, 56, Kind::kTet},
-    {2, 3, Kind::kOther, kTriangles},
-    {9, 6, Kind::kOther, kTriangles},
-    {20, 9, Kind::kOther, kTriangles},
-    {21, 10, Kind::kOther, kTriangles},
-    {22, 12, Kind::kOther, kTriangles},
-    {23, 15, Kind::kOther, kTriangles},
-    {24, 15, Kind::kOther, kTriangles},
-    {25, 21, Kind::kOther, kTriangles},
+    {2, 3, Kind::kTriangle, kTriangles},
+    {9, 6, Kind::kTriangle, kTriangles},
+    {20, 9, Kind::kTriangle, kTriangles},
+    {21, 10, Kind::kTriangle, kTriangles},
+    {22, 12, Kind::kTriangle, kTriangles},
+    {23, 15, Kind::kTriangle, kTriangles},
+    {24, 15, Kind::kTriangle, kTriangles},
+    {25, 21, Kind::kTriangle, kTriangles},
     {3, 4, Kind::kOther, kQuadrilaterals},
     {10, 9, Kind::kOther, kQuadrilaterals},
     {16, 8, Kind::kOther, kQuadrilaterals},
@@ -311,6 +311,25 @@ class GmshReader {
     return num_tags;
   }
 
+  /// What an element belongs to.
+  struct Tags {
+    int region = 0;
+    /// Its curve, surface or volume; 0 for none.
+    int entity = 0;
+  };
+
+  /// The first is that of the physical group, the second that of the entity; those behind are of partitions.
+  Tags NextTags2(int num_tags) {
+    Tags tags;
+    if (num_tags > 0) {
+      tags.region = NextInt("a region tag");
+      tags.entity = num_tags > 1 ? NextInt("an entity tag") : tags.region;
+      if (tags.region == 0) tags.region = tags.entity;
+      Skip(std::max(0, num_tags - 2), 4);
+    }
+    return tags;
+  }
+
   void ReadElements2() {
     const int num_elements = tokens_.NextCount("elements", 4);
     for (int i = 0; i < num_elements; ++i) {
@@ -318,12 +337,7 @@ class GmshReader {
       const int line = tokens_.line();
       const int type = tokens_.NextInt("an element type");
       const int num_tags = CheckNumTags(tokens_.NextInt("a number of tags"));
-      int region = 0;
-      if (num_tags > 0) {
-        region = tokens_.NextInt("a region tag");
-        tokens_.SkipWords(num_tags - 1);
-      }
-      ReadElementLine(line, type, region);
+      ReadElementLine(line, type, NextTags2(num_tags));
     }
   }
 
@@ -340,9 +354,8 @@ class GmshReader {
       }
       for (int end = i + size; i < end; ++i) {
         NextInt("an element number");
-        const int region = num_tags > 0 ? NextInt("a region tag") : 0;
-        Skip(num_tags > 0 ? num_tags - 1 : 0, 4);
-        ReadElement(KnownType(type), region);
+        const Tags tags = NextTags2(num_tags);
+        ReadElement(KnownType(type), tags);
       }
     }
   }
@@ -361,10 +374,10 @@ class GmshReader {
       const int size =
           tokens_.CheckCount(NextSize("the number of elements of a block"), "elements of a block", bytes_each);
       const auto physical = physical_tag_of_volume_.find(entity);
-      const int region = physical == physical_tag_of_volume_.end() ? entity : physical->second;
+      const Tags tags = {physical == physical_tag_of_volume_.end() ? entity : physical->second, entity};
       for (int i = 0; i < size; ++i) {
         NextSize("an element number");
-        is_binary_ ? ReadElement(KnownType(type), region) : ReadElementLine(tokens_.line(), type, region);
+        is_binary_ ? ReadElement(KnownType(type), tags) : ReadElementLine(tokens_.line(), type, tags);
       }
       total += size;
     }
@@ -402,7 +415,7 @@ class GmshReader {
   }
 
   /// Reads the nodes of an element.
-  void ReadElement(const ElementType& type, int region) {
+  void ReadElement(const ElementType& type, const Tags& tags) {
     TetMesh& mesh = result_.mesh;
     int num_read = 0;
     switch (type.kind) {
@@ -416,13 +429,32 @@ class GmshReader {
         num_read = 2;
         break;
       }
+      case Kind::kTriangle: {
+        ++result_.other_cells[type.plural];
+        std::array<int, 3> triangle;
+        std::generate(triangle.begin(), triangle.end(), [this] { return NextVertex(); });
+        if (tags.entity != 0) {
+          mesh.surface_triangles.push_back(triangle);
+          mesh.surface_tags.push_back(tags.entity);
+        }
+        num_read = 3;
+        break;
+      }
       case Kind::kTet: {
         std::array<std::int64_t, 4> numbers;
         std::generate(numbers.begin(), numbers.end(), [this] { return NextNodeNumber(); });
         mesh.tets.push_back(MakeTet(tokens_, numbers, [this](std::int64_t number) { return IndexOf(number); }));
-        mesh.regions.push_back(region);
-        result_.curved_tets += type.num_nodes > 4;
+        mesh.regions.push_back(tags.region);
         num_read = 4;
+        if (type.num_nodes == 10) {
+          const std::array<int, 4> tet = mesh.tets.back();
+          for (const auto& [a, b] : kGmshMidEdges) {
+            mesh.mid_edge_nodes.push_back({NextVertex(), tet[a], tet[b]});
+          }
+          num_read = 10;
+        } else {
+          result_.curved_tets += type.num_nodes > 4;
+        }
         break;
       }
       case Kind::kOther:
@@ -434,14 +466,14 @@ class GmshReader {
   /// Reads the nodes of an element that began on `line` to the end of this line. An element of any
   /// other length would be read as the next ones, so it is refused. Types that are not known are
   /// left out with their line.
-  void ReadElementLine(int line, int number, int region) {
+  void ReadElementLine(int line, int number, const Tags& tags) {
     const ElementType* type = FindType(number);
     if (type == nullptr) {
       ++result_.other_cells["elements of other types"];
     } else if (type->kind == Kind::kOther) {
       ++result_.other_cells[type->plural];
     } else {
-      ReadElement(*type, region);
+      ReadElement(*type, tags);
       if (tokens_.line() != line || !tokens_.AtLineEnd()) {
         tokens_.Fail("an element of type " + std::to_string(number) + " with too " +
                      (tokens_.line() != line ? "few" : "many") + " nodes");

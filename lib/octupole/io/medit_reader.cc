@@ -15,7 +15,6 @@ bool IsKeyword(std::string_view word) {
 
 /// The plural under which cells that are left out are counted, or null.
 const char* OtherCells(std::string_view keyword) {
-  if (keyword == "Triangles") return kTriangles;
   if (keyword == "Quadrilaterals") return kQuadrilaterals;
   if (keyword == "Hexahedra" || keyword == "Hexaedra") return kHexahedra;
   if (keyword == "Prisms" || keyword == "Pentahedra") return kPrisms;
@@ -45,6 +44,9 @@ class MeditReader {
           continue;
         }
         later.emplace_back(keyword, tokens_);
+      } else if (keyword == "Triangles") {
+        triangles_.push_back(tokens_);
+        result_.other_cells[kTriangles] += std::max(0, tokens_.NextInt("the number of cells"));
       } else if (keyword == "Dimension") {
         if (const int dimension = tokens_.NextInt("the dimension"); dimension != 3) {
           tokens_.Fail("a mesh of dimension " + std::to_string(dimension) + ", not 3");
@@ -60,6 +62,9 @@ class MeditReader {
     }
     for (auto& [keyword, start] : later) {
       ReadSection(keyword, start);
+    }
+    for (const TextTokenizer& start : triangles_) {
+      ReadTriangles(start);
     }
     SelectFeatureEdges();
     return std::move(result_);
@@ -104,10 +109,32 @@ class MeditReader {
         named_edges_.push_back(tokens.NextInteger("an edge number"));
       }
     }
-    // A section that is longer than its count was cut off or counted wrongly: do not guess.
-    TextTokenizer behind = tokens;
+    CheckEnd(tokens, items);
+  }
+
+  /// A section that is longer than its count was cut off or counted wrongly: do not guess.
+  static void CheckEnd(TextTokenizer behind, const char* items) {
     if (!behind.AtEnd() && !IsKeyword(behind.NextWord())) {
       behind.Fail(std::string("more ") + items + " than announced");
+    }
+  }
+
+  /// Triangles only say what surfaces there are, and wrong ones are common, so that those do no harm.
+  void ReadTriangles(TextTokenizer tokens) {
+    TetMesh& mesh = result_.mesh;
+    const std::size_t num_before = mesh.surface_triangles.size();
+    try {
+      const int count = tokens.NextCount("triangles", 4);
+      for (int i = 0; i < count; ++i) {
+        const int a = NextVertex(tokens), b = NextVertex(tokens), c = NextVertex(tokens);
+        mesh.surface_triangles.push_back({a, b, c});
+        mesh.surface_tags.push_back(tokens.NextInt("a surface tag"));
+      }
+      CheckEnd(tokens, "triangles");
+    } catch (const std::runtime_error& error) {
+      mesh.surface_triangles.resize(num_before);
+      mesh.surface_tags.resize(num_before);
+      result_.warnings.push_back(std::string("the surface tags are left out: ") + error.what());
     }
   }
 
@@ -166,6 +193,8 @@ class MeditReader {
   std::set<std::string> found_;
   std::vector<std::array<int, 2>> edges_;
   std::vector<std::int64_t> named_edges_;
+  /// Where sections of triangles begin, behind the keyword.
+  std::vector<TextTokenizer> triangles_;
 };
 
 }  // namespace

@@ -194,12 +194,7 @@ void TidyFeatures(TetMesh* mesh, std::vector<std::string>* warnings) {
   }
   std::vector<int> points;
   if (!mesh->feature_points.empty()) {
-    std::vector<bool> is_used(mesh->points.size(), false);
-    for (const std::array<int, 4>& tet : mesh->tets) {
-      for (const int v : tet) {
-        is_used[v] = true;
-      }
-    }
+    const std::vector<bool> is_used = CornersOfTets(*mesh);
     std::copy_if(mesh->feature_points.begin(), mesh->feature_points.end(), std::back_inserter(points),
                  [&](int v) { return is_used[v]; });
   }
@@ -217,6 +212,31 @@ void TidyFeatures(TetMesh* mesh, std::vector<std::string>* warnings) {
   }
   mesh->feature_edges = std::move(edges);
   mesh->feature_points = std::move(points);
+}
+
+/// Drops degenerate triangles; keeps each mid-edge node once, if it is no corner of a tetrahedron.
+void TidySurfaceAndNodes(TetMesh* mesh) {
+  std::size_t num_kept = 0;
+  for (std::size_t t = 0; t < mesh->surface_triangles.size(); ++t) {
+    const auto [a, b, c] = mesh->surface_triangles[t];
+    if (a == b || b == c || c == a) continue;
+    mesh->surface_triangles[num_kept] = {a, b, c};
+    mesh->surface_tags[num_kept++] = mesh->surface_tags[t];
+  }
+  mesh->surface_triangles.resize(num_kept);
+  mesh->surface_tags.resize(num_kept);
+
+  std::vector<std::array<int, 3>>& nodes = mesh->mid_edge_nodes;
+  if (nodes.empty()) return;
+  for (auto& [node, a, b] : nodes) {
+    if (b < a) std::swap(a, b);
+  }
+  std::sort(nodes.begin(), nodes.end());
+  const auto is_same = [](const auto& one, const auto& other) { return one[0] == other[0]; };
+  nodes.erase(std::unique(nodes.begin(), nodes.end(), is_same), nodes.end());
+  const std::vector<bool> is_corner = CornersOfTets(*mesh);
+  const auto is_corner_too = [&](const std::array<int, 3>& node) { return is_corner[node[0]]; };
+  nodes.erase(std::remove_if(nodes.begin(), nodes.end(), is_corner_too), nodes.end());
 }
 
 }  // namespace
@@ -237,11 +257,13 @@ TetMesh FinishMesh(const std::string& path, ParsedMesh parsed, std::vector<std::
         warnings->push_back(std::to_string(count) + " " + kind + " are left out");
       }
     }
+    warnings->insert(warnings->end(), parsed.warnings.begin(), parsed.warnings.end());
     if (parsed.curved_tets > 0) {
       warnings->push_back(std::to_string(parsed.curved_tets) + " tetrahedra of higher order are read as their corners");
     }
   }
   TidyFeatures(&parsed.mesh, warnings);
+  TidySurfaceAndNodes(&parsed.mesh);
   return std::move(parsed.mesh);
 }
 

@@ -16,8 +16,8 @@ namespace octupole {
 ///   cell. Features are the lines, polylines and vertices.
 /// - `.vtu`: VTK's XML, the same. Arrays in text or binary, inline or appended, plain or compressed with zlib.
 ///   Pieces are put one behind the other.
-/// - `.msh`: Gmsh 2.x and 4.1, text or binary. The region is the first physical tag, or in 4.1 the number of the
-///   volume if it has none. Features are the lines and points.
+/// - `.msh`: Gmsh 2.x and 4.1, text or binary. The region is the first physical tag, or the number of the volume if it
+///   has none. Features are the lines and points.
 /// - `.node` and `.ele`: TetGen; either is given, the other is beside it. Both count from 0 or from 1. The region is
 ///   the first attribute if all are integers. Features are the edges of an `.edge` file beside them that have a
 ///   marker other than 0.
@@ -25,9 +25,12 @@ namespace octupole {
 /// - `.tet`: lines "N vertices" and "N tets" or "N cells", the coordinates, then "4" and four indices from 0 per cell.
 ///
 /// Points and tetrahedra keep the order of the file, and all points are kept, used or not.
-/// Tetrahedra of higher order are read as their corners, lines as their ends; other cells are left out, and so are
-/// features that are not in the mesh. Edges that are all there are mark nothing and are left out, too. Features are in
-/// ascending order. `warnings`, if given, receives a line for each kind of what is left out.
+/// Tetrahedra of higher order are read as their corners, lines as their ends, and of second-order tetrahedra the nodes
+/// on their edges become TetMesh::mid_edge_nodes. Triangles give TetMesh::surface_triangles: Medit's with their tags,
+/// VTK's with those of the array that has the regions, Gmsh's with the number of their surface (in format 2 the second
+/// tag). Other cells are left out, and so are features that are not in the mesh. Edges that are all there are mark
+/// nothing and are left out, too. Features are in ascending order. `warnings`, if given, receives a line for each kind
+/// of what is left out.
 ///
 /// The result satisfies CheckTetMesh().
 ///

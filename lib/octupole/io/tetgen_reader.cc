@@ -85,9 +85,15 @@ void ReadElements(const NamedText& file, int first_node, ParsedMesh* result, int
   std::optional<int> first;
   for (int t = 0; t < count; ++t) {
     ReadNumber(tokens, "tetrahedron", t, &first);
-    mesh.tets.push_back(NextTet(
-        tokens, [&](std::int64_t number) { return IndexInOrder(tokens, number, first_node, mesh.points.size()); }));
-    tokens.SkipWords(*nodes_each - 4);
+    const auto index_of = [&](std::int64_t number) {
+      return IndexInOrder(tokens, number, first_node, mesh.points.size());
+    };
+    const std::array<int, 4> tet = NextTet(tokens, index_of);
+    mesh.tets.push_back(tet);
+    for (int i = 0; i < *nodes_each - 4; ++i) {
+      const auto [a, b] = kTetGenMidEdges[i];
+      mesh.mid_edge_nodes.push_back({index_of(tokens.NextInteger("a vertex index")), tet[a], tet[b]});
+    }
     if (num_attributes > 0) {
       // Attributes are real numbers, but regions are integers.
       const double region = tokens.NextReal("an attribute");
@@ -97,7 +103,6 @@ void ReadElements(const NamedText& file, int first_node, ParsedMesh* result, int
     }
   }
   EndFile(tokens, "tetrahedra");
-  result->curved_tets = *nodes_each > 4 ? count : 0;
   if (!has_regions) {
     mesh.regions.clear();
   }

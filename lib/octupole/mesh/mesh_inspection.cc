@@ -42,6 +42,13 @@ void InspectVolumes(const TetMesh& mesh, MeshInspection* result) {
   }
 }
 
+// Doubled ones once.
+std::size_t NumMidEdgeNodes(const TetMesh& mesh) {
+  std::vector<bool> is_node(mesh.points.size(), false);
+  for (const auto& [node, a, b] : mesh.mid_edge_nodes) is_node[node] = true;
+  return static_cast<std::size_t>(std::count(is_node.begin(), is_node.end(), true));
+}
+
 void InspectVertices(const TetMesh& mesh, MeshInspection* result) {
   // Sets of connected vertices as trees; every vertex without tetrahedra is a set of its own.
   std::vector<int> parent(mesh.points.size());
@@ -66,7 +73,7 @@ void InspectVertices(const TetMesh& mesh, MeshInspection* result) {
       result->components += parent[v] == v;
     }
   }
-  result->isolated_vertices = static_cast<int>(mesh.points.size() - used.size());
+  result->isolated_vertices = static_cast<int>(mesh.points.size() - used.size() - NumMidEdgeNodes(mesh));
 
   const auto position = [&](int v) {
     const Eigen::Vector3d& p = mesh.points[v];

@@ -105,12 +105,14 @@ std::vector<Harmonic<kDegree>> ChooseStart(const std::vector<CoarseGraph>& level
   return std::move(starts[best]);
 }
 
-// Solves on the finest graph from `field`, in the order of `order`, and gives the result in the caller's order.
+// Solves on the finest graph, `original` in the order of `order`, from `field`, and gives the result in the caller's
+// order.
 template <int kDegree>
-FieldSolution<kDegree> Finish(const FieldGraph& graph, const std::vector<int>& order, const EnergyWeights& weights,
-                              std::vector<Harmonic<kDegree>> field, Minimizer* minimizer) {
+FieldSolution<kDegree> Finish(const FieldGraph& original, const FieldGraph& graph, const std::vector<int>& order,
+                              const EnergyWeights& weights, std::vector<Harmonic<kDegree>> field,
+                              Minimizer* minimizer) {
   FieldSolution<kDegree> result;
-  result.size = SizeOfProblem(graph, kUnknownsOfKind<kDegree>);
+  result.size = SizeOfProblem(original, kUnknownsOfKind<kDegree>);
   minimizer->BeginStep("field");
   result.energy = MinimizeField<kDegree>(graph, weights, kFieldTolerance, minimizer, &field);
   const bool is_converged = minimizer->termination() == ceres::CONVERGENCE;
@@ -121,8 +123,9 @@ FieldSolution<kDegree> Finish(const FieldGraph& graph, const std::vector<int>& o
   PolishFrames(graph, minimizer, &frames);
   if (is_converged) result.termination = minimizer->termination();
   result.iterations = minimizer->iterations();
-  result.coefficients = internal::InOriginalOrder(order, field);
-  result.frames = internal::InOriginalOrder(order, frames);
+  const Frames rest = internal::AllowedFrames(original);
+  result.coefficients = internal::InOriginalOrder(order, field, internal::HarmonicsOf<kDegree>(rest));
+  result.frames = internal::InOriginalOrder(order, frames, rest);
   return result;
 }
 
@@ -144,7 +147,7 @@ FieldSolution<kDegree> SolveFast(const FieldGraph& graph, const EnergyWeights& w
     MinimizeField<kDegree>(levels[level].graph, level_weights[level], kFieldTolerance, &minimizer, &field);
     field = Prolongate<kDegree>(levels[level], field);
   }
-  return Finish<kDegree>(levels[0].graph, order, weights, std::move(field), &minimizer);
+  return Finish<kDegree>(graph, levels[0].graph, order, weights, std::move(field), &minimizer);
 }
 
 template <int kDegree>
@@ -157,7 +160,7 @@ FieldSolution<kDegree> SolveFastFrom(const FieldGraph& graph, const EnergyWeight
   std::vector<Harmonic<kDegree>> field;
   field.reserve(order.size());
   for (const int v : order) field.push_back(start[v]);
-  return Finish<kDegree>(Reorder(graph, order), order, weights, std::move(field), &minimizer);
+  return Finish<kDegree>(graph, Reorder(graph, order), order, weights, std::move(field), &minimizer);
 }
 
 template FieldSolution<3> SolveFast<3>(const FieldGraph&, const EnergyWeights&, const MinimizerOptions&);

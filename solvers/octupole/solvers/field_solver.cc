@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "octupole/field/mid_edge_frames.h"
 #include "octupole/frames/frame.h"
 #include "octupole/solvers/fast_solver.h"
 #include "octupole/solvers/huang.h"
@@ -67,14 +68,25 @@ FieldSolution<kDegree> SolveWithoutCeres(const FieldGraph& graph, const FieldOpt
   return SolveFast<kDegree>(graph, options.weights, minimizer);
 }
 
-BoundaryAlignment Align(const TetMesh& mesh, double feature_angle_deg, OpenBoundary /*open_boundary*/) {
+template <int kDegree>
+BoundaryAlignment Align(const TetMesh& mesh, const FieldOptions<kDegree>& options) {
   CheckTetMesh(mesh);
-  return AlignToBoundary(mesh, feature_angle_deg);
+  return AlignToBoundary(mesh, {options.feature_angle_deg, options.regions});
 }
 
-BoundaryAlignment Align(const TriangleMesh& surface, double feature_angle_deg, OpenBoundary open_boundary) {
+template <int kDegree>
+BoundaryAlignment Align(const TriangleMesh& surface, const FieldOptions<kDegree>& options) {
   CheckTriangleMesh(surface);
-  return AlignToSurface(surface, feature_angle_deg, open_boundary);
+  return AlignToSurface(surface, options.feature_angle_deg, options.open_boundary);
+}
+
+template <int kDegree>
+void FillMidEdgeNodes(const TetMesh& mesh, Field<kDegree>* field) {
+  if (!field->IsUsable()) return;
+  SetMidEdgeFrames(mesh, &field->frames);
+  for (const auto& [node, a, b] : mesh.mid_edge_nodes) {
+    field->coefficients[node] = HarmonicFromFrame<kDegree>(field->frames[node]);
+  }
 }
 
 template <int kDegree, typename Mesh>
@@ -84,7 +96,7 @@ Field<kDegree> SolveOnMesh(const Mesh& mesh, const FieldOptions<kDegree>& option
   }
   const auto start = std::chrono::steady_clock::now();
   Field<kDegree> field;
-  field.alignment = Align(mesh, options.feature_angle_deg, options.open_boundary);
+  field.alignment = Align(mesh, options);
   const FieldGraph graph = MakeFieldGraph(mesh, field.alignment.alignments);
   field.setup_seconds = SecondsSince(start);
   if (options.solver) {
@@ -101,7 +113,9 @@ Field<kDegree> SolveOnMesh(const Mesh& mesh, const FieldOptions<kDegree>& option
 
 template <int kDegree>
 Field<kDegree> SolveField(const TetMesh& mesh, const FieldOptions<kDegree>& options) {
-  return SolveOnMesh(mesh, options);
+  Field<kDegree> field = SolveOnMesh(mesh, options);
+  FillMidEdgeNodes(mesh, &field);
+  return field;
 }
 
 template <int kDegree>

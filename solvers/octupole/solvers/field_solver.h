@@ -35,6 +35,8 @@ struct FieldOptions {
   /// See AlignToSurface; of a tet mesh no boundary is open.
   double feature_angle_deg = 40;
   OpenBoundary open_boundary = OpenBoundary::kAligned;
+  /// Of a tet mesh, whether its regions and inner surfaces align the field; see FindInterfaces.
+  RegionUse regions = RegionUse::kAutomatic;
   /// Seed of the random starts, which are used when `start` is empty.
   std::uint32_t seed = 0;
   /// How our own methods minimise; the seed is that above.
@@ -65,6 +67,9 @@ struct Field : FieldSolution<kDegree> {
 /// A boundary-aligned frame field on a tet mesh: AlignToBoundary, MakeFieldGraph and the method in a row, with Ceres
 /// RandomField, BuildFieldProblem, ceres::Solve and NearestFrame. Compose them yourself for anything else.
 /// The same seed gives the same field on the same machine, with Ceres on one thread.
+///
+/// The mid-edge nodes of second-order tetrahedra are no unknowns: they get the mean of their edges' ends
+/// (SetMidEdgeFrames). Other points of no tetrahedron get any frame that their alignment allows.
 ///
 /// \throw std::invalid_argument when the mesh cannot carry a field (see CheckTetMesh), an option is out of range, or a
 /// start or solver is given to a method that takes none.

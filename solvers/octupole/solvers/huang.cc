@@ -16,11 +16,11 @@ FrameSolution SolveHuang(const FieldGraph& graph, const MinimizerOptions& option
   const std::vector<int> order = BreadthFirstOrder(graph);
   const FieldGraph ordered = Reorder(graph, order);
   std::mt19937 generator(options.seed);
-  const internal::Frames start(graph.num_vertices(), RandomRotation(&generator).toRotationMatrix());
+  const internal::Frames start(ordered.num_vertices(), RandomRotation(&generator).toRotationMatrix());
   const FrameEnergy energy(ordered, start, minimizer.workers(), kHuangBoundaryWeight);
   std::vector<double> x(energy.NumParameters(), 0);
   const double lowest = minimizer.Minimize(energy, ordered, internal::kFrameTolerance, &x);
-  return minimizer.MakeSolution(order, energy.FramesOf(x), lowest, SizeOfProblem(graph, {3, 3, 3}));
+  return minimizer.MakeSolution(graph, order, energy.FramesOf(x), lowest, SizeOfProblem(ordered, {3, 3, 3}));
 }
 
 }  // namespace octupole

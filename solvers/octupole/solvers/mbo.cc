@@ -73,7 +73,7 @@ FrameSolution SolveMbo(const FieldGraph& graph, const MinimizerOptions& options)
   const FieldGraph ordered = Reorder(graph, order);
   const FieldEnergy<4> energy(ordered, {0, 0}, minimizer.workers());
   // The Laplacian's first eigenvalue above zero on a graph that fills a box, from the mean weight at a vertex.
-  const double num_vertices = static_cast<double>(std::max<std::size_t>(1, graph.num_vertices()));
+  const double num_vertices = static_cast<double>(std::max<std::size_t>(1, ordered.num_vertices()));
   const double lambda = 2.5 * (2 * SumOfWeights(graph) / num_vertices) / std::pow(num_vertices, 2. / 3);
 
   Frames frames;
@@ -91,7 +91,7 @@ FrameSolution SolveMbo(const FieldGraph& graph, const MinimizerOptions& options)
     if (minimizer.termination() != ceres::CONVERGENCE) break;
     if (std::abs(last_cost - cost) <= kTolerance * cost || change <= kTolerance * Norm(x)) break;
   }
-  return minimizer.MakeSolution(order, frames, 2 * cost, SizeOfProblem(graph, kUnknownsOfKind<4>));
+  return minimizer.MakeSolution(graph, order, frames, 2 * cost, SizeOfProblem(graph, kUnknownsOfKind<4>));
 }
 
 }  // namespace octupole

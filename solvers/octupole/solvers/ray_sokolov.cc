@@ -21,7 +21,7 @@ FrameSolution SolveRaySokolov(const FieldGraph& graph, const MinimizerOptions& o
   const FieldGraph ordered = Reorder(graph, order);
   internal::Frames frames = internal::LinearFrames(ordered, kLinearTolerance, options.seed, &minimizer);
   const double energy = internal::PolishFrames(ordered, &minimizer, &frames);
-  return minimizer.MakeSolution(order, frames, energy, SizeOfProblem(graph, kUnknownsOfKind<4>));
+  return minimizer.MakeSolution(graph, order, frames, energy, SizeOfProblem(graph, kUnknownsOfKind<4>));
 }
 
 }  // namespace octupole

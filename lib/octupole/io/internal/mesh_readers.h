@@ -14,10 +14,13 @@ namespace octupole::internal {
 
 /// What a file holds: the tetrahedral mesh and a count of what is not in it.
 struct ParsedMesh {
-  /// Its features are as they are in the file: doubled, degenerate or none of the mesh's edges.
+  /// Its features, surface triangles and mid-edge nodes are as they are in the file: doubled, degenerate or none of the
+  /// mesh's edges and faces.
   TetMesh mesh;
-  /// How many of `mesh.tets` are the corners of second- or third-order tetrahedra.
+  /// How many of `mesh.tets` are the corners of tetrahedra of third or higher order.
   int curved_tets = 0;
+  /// What else the user should know.
+  std::vector<std::string> warnings;
   /// The cells that are left out, by their kind in the plural ("hexahedra").
   std::map<std::string, std::int64_t> other_cells;
 };
@@ -48,6 +51,13 @@ ParsedMesh ReadTetGen(const NamedText& nodes, const NamedText& elements, const N
 /// The mesh with its features in order, or an error if it has no tetrahedra; `warnings`, if given,
 /// receives what is left out.
 TetMesh FinishMesh(const std::string& path, ParsedMesh parsed, std::vector<std::string>* warnings);
+
+/// The corners of the edges on which the fifth to the tenth node of a second-order tetrahedron lie, as gmsh, VTK and
+/// TetGen (checked on what its option -o2 writes) have them.
+inline constexpr std::array<std::array<int, 2>, 6> kGmshMidEdges = {{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {2, 3}, {1, 3}}};
+inline constexpr std::array<std::array<int, 2>, 6> kVtkMidEdges = {{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
+
+inline constexpr std::array<std::array<int, 2>, 6> kTetGenMidEdges = {{{2, 3}, {0, 3}, {0, 1}, {1, 2}, {1, 3}, {0, 2}}};
 
 /// Reads one point.
 inline Eigen::Vector3d NextPoint(TextTokenizer& tokens) {

@@ -11,25 +11,30 @@ enum VtkType {
   kPolyVertex = 2,
   kLine = 3,
   kPolyLine = 4,
+  kTriangle = 5,
   kTet = 10,
   kQuadraticLine = 21,
+  kQuadraticTriangle = 22,
   kQuadraticTet = 24,
+  kBiquadraticTriangle = 34,
   kCubicLine = 35,
   kLagrangeLine = 68,
+  kLagrangeTriangle = 69,
   kLagrangeTet = 71,
   kBezierLine = 75,
+  kBezierTriangle = 76,
   kBezierTet = 78
 };
 
 /// The plural of cells that are left out.
 const char* OtherCells(int type) {
   switch (type) {
-    case 5:
-    case 6:
-    case 22:
-    case 34:
-    case 69:
-    case 76:
+    case kTriangle:
+    case 6:  // a strip
+    case kQuadraticTriangle:
+    case kBiquadraticTriangle:
+    case kLagrangeTriangle:
+    case kBezierTriangle:
       return kTriangles;
     case 8:
     case 9:
@@ -111,12 +116,32 @@ void AddVtkCells(const VtkCells& cells, std::size_t first_point,
           }
         }
         mesh.tets.push_back(tet);
-        result->curved_tets += size > 4;
+        if (size == 10) {
+          for (int i = 0; i < 6; ++i) {
+            const auto [a, b] = kVtkMidEdges[i];
+            mesh.mid_edge_nodes.push_back({index_of(begin + 4 + i), tet[a], tet[b]});
+          }
+        } else {
+          result->curved_tets += size > 4;
+        }
         if (!cells.regions.empty()) {
           mesh.regions.push_back(cells.regions[c]);
         }
         break;
       }
+      case kTriangle:
+      case kQuadraticTriangle:
+      case kBiquadraticTriangle:
+      case kLagrangeTriangle:
+      case kBezierTriangle:
+        ++result->other_cells[kTriangles];
+        check_size("a triangle", 3, type == kTriangle ? 3 : size);
+        // Without a tag it marks nothing.
+        if (!cells.regions.empty()) {
+          mesh.surface_triangles.push_back({index_of(begin), index_of(begin + 1), index_of(begin + 2)});
+          mesh.surface_tags.push_back(cells.regions[c]);
+        }
+        break;
       case kVertex:
       case kPolyVertex:
         for (std::int64_t i = begin; i < cells.ends[c]; ++i) {

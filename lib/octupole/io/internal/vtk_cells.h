@@ -19,8 +19,8 @@ struct VtkCells {
   std::vector<int> regions;
 };
 
-/// Adds the tetrahedra among the cells and what the others mark: lines and points are features. The
-/// connectivity counts from `first_point`, behind which all points of the mesh are the cells'.
+/// Adds the tetrahedra among the cells and what the others mark: lines and points are features, triangles with a tag
+/// parts of surfaces. The connectivity counts from `first_point`, behind which all points of the mesh are the cells'.
 ///
 /// `fail` throws a message about an entry of the connectivity.
 void AddVtkCells(const VtkCells& cells, std::size_t first_point,

@@ -15,6 +15,13 @@ constexpr double kZeroEnergy = 1e-10;
 
 }  // namespace
 
+Frames AllowedFrames(const FieldGraph& graph) {
+  Frames frames;
+  frames.reserve(graph.num_vertices());
+  for (const Alignment& alignment : graph.alignments) frames.push_back(alignment.frame());
+  return frames;
+}
+
 double Minimizer::Minimize(const ceres::FirstOrderFunction& function, const FieldGraph& graph, double tolerance,
                            std::vector<double>* x) {
   LbfgsOptions options;
@@ -38,11 +45,11 @@ void Minimizer::Tell(std::string what) const {
   if (options_.step_callback) options_.step_callback(summary);
 }
 
-FrameSolution Minimizer::MakeSolution(const std::vector<int>& order, const Frames& frames, double energy,
-                                      const ProblemSize& size) const {
+FrameSolution Minimizer::MakeSolution(const FieldGraph& graph, const std::vector<int>& order, const Frames& frames,
+                                      double energy, const ProblemSize& size) const {
   FrameSolution solution;
   solution.termination = termination_;
-  solution.frames = InOriginalOrder(order, frames);
+  solution.frames = InOriginalOrder(order, frames, AllowedFrames(graph));
   solution.energy = energy;
   solution.iterations = iterations_;
   solution.size = size;

@@ -25,13 +25,18 @@ using Frames = std::vector<Eigen::Matrix3d>;
 /// Relative decrease per iteration at which frames are polished.
 inline constexpr double kFrameTolerance = 2e-5;
 
-/// Values of the vertices of Reorder(graph, order), in the order of `graph`.
+/// Values of the vertices of Reorder(graph, order), in the order of `graph`. What `order` leaves out has those of
+/// `rest`.
 template <typename Value>
-std::vector<Value> InOriginalOrder(const std::vector<int>& order, const std::vector<Value>& values) {
-  std::vector<Value> result(values.size());
+std::vector<Value> InOriginalOrder(const std::vector<int>& order, const std::vector<Value>& values,
+                                   std::vector<Value> rest) {
+  std::vector<Value> result = std::move(rest);
   for (std::size_t i = 0; i < order.size(); ++i) result[order[i]] = values[i];
   return result;
 }
+
+/// Frames that keep to the alignments, of vertices that have nothing else to go by.
+Frames AllowedFrames(const FieldGraph& graph);
 
 /// Runs the minimisations of one solve: counts their iterations against the limit and passes them on to the caller.
 class Minimizer final : public ceres::IterationCallback {
@@ -54,8 +59,8 @@ class Minimizer final : public ceres::IterationCallback {
                   std::vector<double>* x);
 
   /// What a method found on Reorder(graph, order), in the order of the graph.
-  FrameSolution MakeSolution(const std::vector<int>& order, const Frames& frames, double energy,
-                             const ProblemSize& size) const;
+  FrameSolution MakeSolution(const FieldGraph& graph, const std::vector<int>& order, const Frames& frames,
+                             double energy, const ProblemSize& size) const;
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override;
 
