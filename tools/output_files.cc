@@ -64,4 +64,11 @@ nlohmann::ordered_json DescribeAlignment(const BoundaryAlignment& alignment) {
           {"free", alignment.num_free}};
 }
 
+nlohmann::ordered_json DescribeConstraints(const ConstraintSummary& constraints) {
+  return {{"axes", constraints.num_axes},
+          {"frames", constraints.num_frames},
+          {"contradictions", constraints.num_contradictions},
+          {"largest_contradiction_deg", constraints.largest_contradiction_deg}};
+}
+
 }  // namespace octupole

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "octupole/field/boundary_alignment.h"
+#include "octupole/field/constraints.h"
 
 namespace octupole {
 
@@ -28,5 +29,8 @@ void WriteReport(const std::filesystem::path& file, const nlohmann::ordered_json
 
 /// The section "alignment" of a report.
 nlohmann::ordered_json DescribeAlignment(const BoundaryAlignment& alignment);
+
+/// The section "constraints" of a report.
+nlohmann::ordered_json DescribeConstraints(const ConstraintSummary& constraints);
 
 }  // namespace octupole

@@ -17,6 +17,9 @@ struct FieldQuality {
   /// Sum over the mesh's edges of FrameDifference<3> and FrameDifference<4>.
   double energy3 = 0;
   double energy4 = 0;
+  /// The sum of EdgeWeights::kFiniteElement times FrameDifference<4>, in units of length: comparable across meshes of
+  /// one shape, but for the cores of singular curves, whose energy grows with the logarithm of the resolution.
+  double energy4_fem = 0;
   /// The angle in degrees between the angle-weighted normal and the nearest axis, over the smooth boundary vertices:
   /// those at which all normals of incident boundary faces are within 35 degrees of each other and no such face has
   /// zero area.

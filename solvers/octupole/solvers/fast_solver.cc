@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "octupole/field/aligned_frame.h"
 #include "octupole/field/coarse_graph.h"
+#include "octupole/harmonics/rotation.h"
+#include "octupole/solvers/field_energy.h"
 #include "octupole/solvers/internal/minimizer.h"
 
 namespace octupole {
@@ -160,11 +164,44 @@ FieldSolution<kDegree> SolveFastFrom(const FieldGraph& graph, const EnergyWeight
   return Finish<kDegree>(Reorder(graph, order), order, weights, std::move(field), &minimizer);
 }
 
+template <int kDegree>
+FieldSolution<kDegree> PolishField(const FieldGraph& graph, const EnergyWeights& weights, const Frames& frames,
+                                   const MinimizerOptions& options) {
+  CheckFieldGraph(graph);
+  if (frames.size() != graph.num_vertices()) {
+    throw std::invalid_argument("PolishField: " + std::to_string(frames.size()) + " frames for " +
+                                std::to_string(graph.num_vertices()) + " vertices");
+  }
+  Minimizer minimizer(options);
+  const std::vector<int> order = BreadthFirstOrder(graph);
+  const FieldGraph ordered = Reorder(graph, order);
+  Frames polished;
+  polished.reserve(order.size());
+  for (const int v : order) {
+    CheckRotation("PolishField", frames[v]);
+    polished.push_back(frames[v]);
+  }
+  polished = AlignFrames(ordered.alignments, std::move(polished));
+  PolishFrames(ordered, &minimizer, &polished);
+  FieldSolution<kDegree> result;
+  static_cast<FrameSolution&>(result) =
+      minimizer.MakeSolution(order, polished, 0, SizeOfProblem(graph, kUnknownsOfKind<kDegree>));
+  result.coefficients = internal::HarmonicsOf<kDegree>(result.frames);
+  const FieldEnergy<kDegree> energy(graph, weights, minimizer.workers());
+  energy.Evaluate(energy.ParametersOf(result.coefficients).data(), &result.energy, nullptr);
+  result.energy *= 2;
+  return result;
+}
+
 template FieldSolution<3> SolveFast<3>(const FieldGraph&, const EnergyWeights&, const MinimizerOptions&);
 template FieldSolution<4> SolveFast<4>(const FieldGraph&, const EnergyWeights&, const MinimizerOptions&);
 template FieldSolution<3> SolveFastFrom<3>(const FieldGraph&, const EnergyWeights&, const std::vector<Octupole>&,
                                            const MinimizerOptions&);
 template FieldSolution<4> SolveFastFrom<4>(const FieldGraph&, const EnergyWeights&, const std::vector<Hexadecapole>&,
                                            const MinimizerOptions&);
+template FieldSolution<3> PolishField<3>(const FieldGraph&, const EnergyWeights&, const Frames&,
+                                         const MinimizerOptions&);
+template FieldSolution<4> PolishField<4>(const FieldGraph&, const EnergyWeights&, const Frames&,
+                                         const MinimizerOptions&);
 
 }  // namespace octupole
