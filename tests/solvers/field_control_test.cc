@@ -121,7 +121,7 @@ TEST(SolveField, KeepsToSoftConstraintsByTheirWeight) {
   const Vector3d axis(std::sin(0.3), 0, std::cos(0.3));
   options.constraints = {{62, Alignment::Axis(axis)}};
   double last = 1;
-  for (const double weight : {0., 3., 100., 1e4}) {
+  for (const double weight : {0., 30., 1000., 1e5}) {
     options.constraint_weight = weight;
     const Field<3> field = SolveField<3>(mesh, options);
     EXPECT_EQ(field.alignment.alignments[62].kind(), AlignmentKind::kFree);

@@ -135,7 +135,8 @@ double SumOfWeights(const FieldGraph& graph) {
 }
 
 double MeanEdgeWeight(const FieldGraph& graph) {
-  return graph.edges.empty() ? 1 : SumOfWeights(graph) / static_cast<double>(graph.edges.size());
+  const double sum = SumOfWeights(graph);
+  return sum > 0 ? sum / static_cast<double>(graph.edges.size()) : 1;
 }
 
 ProblemSize SizeOfProblem(const FieldGraph& graph, const std::array<std::size_t, 3>& unknowns_of_kind) {

@@ -53,7 +53,7 @@ void CheckFieldGraph(const FieldGraph& graph);
 /// The sum of the edges' weights.
 double SumOfWeights(const FieldGraph& graph);
 
-/// The mean of the edges' weights; 1 without edges.
+/// The mean of the edges' weights; 1 where there are none but zero.
 double MeanEdgeWeight(const FieldGraph& graph);
 
 /// How large the problem is that a field poses on a graph.

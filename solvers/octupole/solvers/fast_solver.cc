@@ -28,6 +28,8 @@ constexpr std::size_t kMinVertices = 100;
 constexpr int kNumRandomStarts = 3;
 // Relative decrease per iteration at which the minimisation of a field ends.
 constexpr double kFieldTolerance = 1e-4;
+// The same after a local change, which is but a small part of the energy.
+constexpr double kChangeTolerance = 2e-6;
 
 double MeanWeight(const FieldGraph& graph) {
   return SumOfWeights(graph) / static_cast<double>(std::max<std::size_t>(1, graph.num_vertices()));
@@ -182,7 +184,7 @@ FieldSolution<kDegree> PolishField(const FieldGraph& graph, const EnergyWeights&
     polished.push_back(frames[v]);
   }
   polished = AlignFrames(ordered.alignments, std::move(polished));
-  PolishFrames(ordered, &minimizer, &polished);
+  PolishFrames(ordered, &minimizer, &polished, kChangeTolerance);
   FieldSolution<kDegree> result;
   static_cast<FrameSolution&>(result) =
       minimizer.MakeSolution(order, polished, 0, SizeOfProblem(graph, kUnknownsOfKind<kDegree>));

@@ -1,6 +1,8 @@
 #include "octupole/solvers/huang.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -36,7 +38,9 @@ FrameSolution SolveHuang(const FieldGraph& graph, const MinimizerOptions& option
     is_hard[v] = is_hard_of_graph[order[v]];
     if (is_hard[v]) start[v] = NearestAlignedFrame<4>(ordered.alignments[v], HarmonicFromFrame<4>(start[v]));
   }
-  const FrameEnergy energy(ordered, start, minimizer.workers(), kHuangBoundaryWeight * MeanEdgeWeight(graph), is_hard);
+  // Weights so large that the energy is not finite are found out by the minimiser.
+  const double soft_weight = std::min(kHuangBoundaryWeight * MeanEdgeWeight(graph), std::numeric_limits<double>::max());
+  const FrameEnergy energy(ordered, start, minimizer.workers(), soft_weight, is_hard);
   std::vector<double> x(energy.NumParameters(), 0);
   const double lowest = minimizer.Minimize(energy, ordered, internal::kFrameTolerance, &x);
   return minimizer.MakeSolution(order, energy.FramesOf(x), lowest, SizeOfProblem(graph, {3, 3, 3}));
