@@ -129,11 +129,15 @@ void PrintSummary(const Arguments& arguments, const nlohmann::ordered_json& repo
 
 template <int kDegree>
 void RunField(const Arguments& arguments) {
-  CheckOutputs(TetMeshFiles(arguments.mesh), {{"--output", arguments.output, {".vtu"}},
-                                              {"--singularities", arguments.singularities, {".vtu"}},
-                                              {"--report", arguments.report},
-                                              {"--fra", arguments.fra},
-                                              {"--quaternions", arguments.quaternions}});
+  std::vector<std::filesystem::path> inputs = TetMeshFiles(arguments.mesh);
+  for (const auto* file : {&arguments.constraints, &arguments.start}) {
+    if (!file->empty()) inputs.push_back(*file);
+  }
+  CheckOutputs(inputs, {{"--output", arguments.output, {".vtu"}},
+                        {"--singularities", arguments.singularities, {".vtu"}},
+                        {"--report", arguments.report},
+                        {"--fra", arguments.fra},
+                        {"--quaternions", arguments.quaternions}});
   const InterruptionGuard guard;
   Stopwatch stopwatch;
   std::vector<std::string> warnings;

@@ -23,7 +23,7 @@ struct Arguments {
 };
 
 void RunSample(const Arguments& arguments) {
-  CheckFolderOf(arguments.output);
+  CheckOutputs({arguments.field, arguments.points}, {{"--output", arguments.output, {".vtu", ".csv"}}});
   Stopwatch stopwatch;
   const FieldFile field = ReadField(arguments.field);
   const std::vector<Eigen::Vector3d> points =
