@@ -15,7 +15,10 @@
 #include "interruption.h"
 #include "octupole/field/aligned_frame.h"
 #include "octupole/field/field_quality.h"
+#include "octupole/field/field_sampler.h"
 #include "octupole/field/tet_frames.h"
+#include "octupole/io/constraint_reader.h"
+#include "octupole/io/field_reader.h"
 #include "octupole/io/field_writer.h"
 #include "octupole/io/mesh_io.h"
 #include "octupole/io/singularity_writer.h"
@@ -54,7 +57,16 @@ struct Arguments {
   /// If given, it finds the features, whatever the mesh marks.
   std::optional<double> feature_angle;
   RegionUse regions = RegionUse::kAutomatic;
+  EdgeWeights weights = EdgeWeights::kUniform;
+  std::filesystem::path constraints;
+  /// If given, the constraints are soft.
+  std::optional<double> constraint_weight;
+  /// An earlier field.
+  std::filesystem::path start;
 };
+
+const std::map<std::string, EdgeWeights> kWeightsOfName = {{"uniform", EdgeWeights::kUniform},
+                                                           {"fem", EdgeWeights::kFiniteElement}};
 
 std::string NameOf(FieldMethod method) {
   for (const auto& [name, value] : kMethodOfName) {
@@ -97,6 +109,12 @@ void PrintSummary(const Arguments& arguments, const nlohmann::ordered_json& repo
                 interfaces["tangents"].get<int>(), interfaces["free"].get<int>(),
                 interfaces["max_error_deg"].get<double>());
   }
+  if (!arguments.constraints.empty()) {
+    const auto& constraints = report["constraints"];
+    std::printf("prescribed %d axes, %d frames; %d contradict the boundary, by up to %.2g degrees\n",
+                constraints["axes"].get<int>(), constraints["frames"].get<int>(),
+                constraints["contradictions"].get<int>(), constraints["largest_contradiction_deg"].get<double>());
+  }
   std::string method = report["method"];
   if (report.contains("solver")) method += ", " + report["solver"].get<std::string>();
   std::printf("method     %s, degree %d, %d unknowns: %s after %d iterations\n", method.c_str(),
@@ -118,11 +136,15 @@ void PrintSummary(const Arguments& arguments, const nlohmann::ordered_json& repo
 
 template <int kDegree>
 void RunField(const Arguments& arguments) {
-  CheckOutputs(TetMeshFiles(arguments.mesh), {{"--output", arguments.output, {".vtu"}},
-                                              {"--singularities", arguments.singularities, {".vtu"}},
-                                              {"--report", arguments.report},
-                                              {"--fra", arguments.fra},
-                                              {"--quaternions", arguments.quaternions}});
+  std::vector<std::filesystem::path> inputs = TetMeshFiles(arguments.mesh);
+  for (const auto* file : {&arguments.constraints, &arguments.start}) {
+    if (!file->empty()) inputs.push_back(*file);
+  }
+  CheckOutputs(inputs, {{"--output", arguments.output, {".vtu"}},
+                        {"--singularities", arguments.singularities, {".vtu"}},
+                        {"--report", arguments.report},
+                        {"--fra", arguments.fra},
+                        {"--quaternions", arguments.quaternions}});
   const InterruptionGuard guard;
   Stopwatch stopwatch;
   std::vector<std::string> warnings;
@@ -142,7 +164,14 @@ void RunField(const Arguments& arguments) {
   }
   options.method = arguments.method;
   options.regions = arguments.regions;
+  options.edge_weights = arguments.weights;
   SetSolverOptions(arguments.solver, &progress, &options);
+  if (!arguments.constraints.empty()) options.constraints = ReadConstraints(arguments.constraints, mesh.points.size());
+  options.constraint_weight = arguments.constraint_weight;
+  if (!arguments.start.empty()) {
+    const FieldFile start = ReadField(arguments.start);
+    options.start_frames = TransferFrames(start.mesh, start.frames, mesh.points);
+  }
   const std::clock_t cpu_start = std::clock();
   const Field<kDegree> field = SolveField<kDegree>(mesh, options);
   const double cpu_seconds = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
@@ -189,6 +218,9 @@ void RunField(const Arguments& arguments) {
         {"points", mesh.feature_points.size()}}},
       {"interfaces", interface_report},
       {"warnings", warnings},
+      {"constraints", DescribeConstraints(field.constraints)},
+      {"weights", arguments.weights == EdgeWeights::kUniform ? "uniform" : "fem"},
+      {"start", arguments.start.string()},
       {"method", NameOf(arguments.method)},
       {"degree", kDegree},
       {"seed", arguments.solver.seed},
@@ -199,6 +231,7 @@ void RunField(const Arguments& arguments) {
       {"energy", field.energy},
       {"energy3", quality.energy3},
       {"energy4", quality.energy4},
+      {"energy4_fem", quality.energy4_fem},
       // Where alignment is soft, of the nearest frames that keep to it: to compare with the others.
       {"energy4_aligned", arguments.method == FieldMethod::kHuang
                               ? MeasureField(mesh, AlignFrames(field.alignment.alignments, field.frames)).energy4
@@ -268,12 +301,40 @@ void AddFieldCommand(CLI::App* app) {
   add_regions("--ignore-regions", RegionUse::kIgnore, "Follow no surfaces inside the mesh")
       ->excludes(add_regions("--follow-regions", RegionUse::kFollow,
                              "Follow all faces between regions and tagged triangles inside, ragged ones too"));
+  command
+      ->add_option_function<std::string>(
+          "--weights", [arguments](const std::string& name) { arguments->weights = kWeightsOfName.at(name); },
+          "Of the mesh's edges: uniform, or fem (finite elements), which heed their lengths")
+      ->check(CLI::IsMember({"uniform", "fem"}))
+      ->option_text("NAME [uniform]");
+  command
+      ->add_option(
+          "--constraints", arguments->constraints,
+          "Prescribed axes and frames: lines vertex,x,y,z[,x,y,z[,x,y,z]], or point arrays constraint_axis and "
+          "constraint_axis_2")
+      ->option_text("F.csv|F.vtu");
+  command
+      ->add_option("--constraint-weight", arguments->constraint_weight,
+                   "Keep to the constraints softly, with this weight; with Ceres' solvers only")
+      ->check(AtLeastZero())
+      ->option_text("W");
+  command
+      ->add_option(
+          "--start", arguments->start,
+          "An earlier field, of this mesh or another, to begin with: for small changes, in a fraction of the time")
+      ->option_text("FIELD.vtu");
   AddSolverArguments(command, &arguments->solver);
   command->callback([arguments] {
     if (arguments->output.empty()) arguments->output = arguments->mesh.stem().string() + "_field.vtu";
     const bool is_classic = arguments->method != FieldMethod::kPenalty;
     if (is_classic && arguments->solver.solver) {
       throw CLI::ValidationError("--solver", "only for --method penalty, not for " + NameOf(arguments->method));
+    }
+    if (is_classic && !arguments->start.empty()) {
+      throw CLI::ValidationError("--start", "only for --method penalty, not for " + NameOf(arguments->method));
+    }
+    if (arguments->constraint_weight && arguments->solver.solver.value_or("fast") == "fast") {
+      throw CLI::ValidationError("--constraint-weight", "only with a --solver of Ceres: cholesky, cgnr or lbfgs");
     }
     if (is_classic && arguments->solver.degree == 3) {
       throw CLI::ValidationError("--degree", NameOf(arguments->method) + " knows degree 4 only");

@@ -16,6 +16,7 @@
 #include "field_command.h"
 #include "info_command.h"
 #include "octupole/version.h"
+#include "sample_command.h"
 #ifdef OCTUPOLE_WITH_OPENMESH
 #include <OpenMesh/Core/System/config.h>
 
@@ -60,6 +61,7 @@ void Run(int argc, char** argv, CLI::App* app) {
   AddFieldCommand(app);
   AddInfoCommand(app);
   AddCompareCommand(app);
+  AddSampleCommand(app);
 #ifdef OCTUPOLE_WITH_OPENMESH
   AddSurfaceCommand(app);
 #endif

@@ -79,4 +79,11 @@ std::vector<std::string> InterfaceWarningsOfTool(const Interfaces& interfaces) {
   return warnings;
 }
 
+nlohmann::ordered_json DescribeConstraints(const ConstraintSummary& constraints) {
+  return {{"axes", constraints.num_axes},
+          {"frames", constraints.num_frames},
+          {"contradictions", constraints.num_contradictions},
+          {"largest_contradiction_deg", constraints.largest_contradiction_deg}};
+}
+
 }  // namespace octupole

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "octupole/field/boundary_alignment.h"
+#include "octupole/field/constraints.h"
 
 namespace octupole {
 
@@ -34,5 +35,8 @@ nlohmann::ordered_json DescribeInterfaces(const Interfaces& interfaces);
 
 /// InterfaceWarnings, with how to override what they say.
 std::vector<std::string> InterfaceWarningsOfTool(const Interfaces& interfaces);
+
+/// The section "constraints" of a report.
+nlohmann::ordered_json DescribeConstraints(const ConstraintSummary& constraints);
 
 }  // namespace octupole

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
+#include "ball_mesh.h"
 #include "octupole/mesh/box_mesh.h"
 
 namespace octupole {
@@ -24,6 +27,49 @@ TEST(MakeFieldGraph, TakesVerticesAndEdgesOfTheMesh) {
     EXPECT_EQ(edge.weight, 1);
   }
   EXPECT_NO_THROW(CheckFieldGraph(graph));
+}
+
+// Of a function that is linear in space: the squared gradient times the volume, whatever the cells' sizes. A grid of
+// boxes has no negative weights.
+TEST(MakeFieldGraph, HasFiniteElementWeights) {
+  TetMesh mesh = MakeBoxMesh({4, 3, 5}, {2, 1, 3});
+  for (Eigen::Vector3d& p : mesh.points) p.z() *= p.z();  // graded, up to z = 9
+  for (std::size_t t = 0; t < mesh.tets.size(); t += 3) std::swap(mesh.tets[t][0], mesh.tets[t][1]);  // inverted
+  const Eigen::Vector3d gradient(1, -2, 3);
+  const auto energy = [&](const TetMesh& m) {
+    const FieldGraph graph = MakeFieldGraph(m, std::vector<Alignment>(m.points.size()), EdgeWeights::kFiniteElement);
+    EXPECT_NO_THROW(CheckFieldGraph(graph));
+    double sum = 0;
+    for (const auto& [a, b, weight] : graph.edges) {
+      sum += weight * std::pow(gradient.dot(m.points[a] - m.points[b]), 2);
+    }
+    return sum;
+  };
+  EXPECT_NEAR(energy(mesh), gradient.squaredNorm() * 2 * 1 * 9, 1e-10);
+  // Negative sums count as nothing, which can only add to the energy.
+  EXPECT_GT(energy(MakeBallMesh(6)), gradient.squaredNorm() * 0.98 * 4. / 3 * EIGEN_PI * 0.9);
+}
+
+TEST(MakeFieldGraph, HasCotangentWeightsOnASurface) {
+  // A square of sides 3 and 1 in two triangles: half the cotangents are 1/6 and 3/2, and 0 on the diagonal.
+  const TriangleMesh square = {{{0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
+  const FieldGraph graph = MakeFieldGraph(square, std::vector<Alignment>(4), EdgeWeights::kFiniteElement);
+  ASSERT_EQ(graph.edges.size(), 5u);
+  for (const auto& [a, b, weight] : graph.edges) {
+    const double length = (square.points[a] - square.points[b]).norm();
+    EXPECT_NEAR(weight, length == 3 ? 1. / 6 : length == 1 ? 3. / 2 : 0, 1e-14) << a << " " << b;
+  }
+}
+
+TEST(MakeFieldGraph, HasFiniteWeightsOnFlatCells) {
+  const TetMesh flat = {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 2, 2}}, {{0, 1, 2, 3}, {4, 0, 1, 2}}, {}};
+  const TetMesh point = {{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}}, {{0, 1, 2, 3}}, {}};
+  for (const TetMesh& mesh : {flat, point}) {
+    const FieldGraph graph =
+        MakeFieldGraph(mesh, std::vector<Alignment>(mesh.points.size()), EdgeWeights::kFiniteElement);
+    EXPECT_NO_THROW(CheckFieldGraph(graph));
+    EXPECT_LT(MeanEdgeWeight(graph), 100);
+  }
 }
 
 TEST(MakeFieldGraph, WantsOneAlignmentPerPoint) {
@@ -51,6 +97,8 @@ TEST(SizeOfProblem, AddsUpBlocks) {
       {{0, 1, 1}, {0, 2, 2.5}, {1, 3, 1}, {1, 2, 0}},
       {Alignment(), Alignment(), Alignment::Axis({1, 2, 3}), Alignment::Frame(Eigen::Matrix3d::Identity())}};
   EXPECT_EQ(SumOfWeights(graph), 4.5);
+  EXPECT_EQ(MeanEdgeWeight(graph), 4.5 / 4);
+  EXPECT_EQ(MeanEdgeWeight({}), 1);
   const ProblemSize size = SizeOfProblem(graph, {7, 2, 0});
   EXPECT_EQ(size.unknowns, 7u + 7u + 2u);
   EXPECT_EQ(size.nonzeros, 49u + 49u + 4u + 2u * 49u + 2u * 14u);

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "method_checks.h"
+#include "octupole/field/aligned_frame.h"
 #include "octupole/solvers/field_solver.h"
 #include "octupole/solvers/solver_presets.h"
 
@@ -85,6 +86,41 @@ TYPED_TEST(FastSolverTest, ContinuesFromAField) {
   EXPECT_LE(again.energy, field.energy);
   EXPECT_LT(again.iterations.size(), field.iterations.size() / 2);
   EXPECT_THROW(SolveFastFrom<l>(graph, {}, {}), std::invalid_argument);
+}
+
+// After a change at one vertex: lower than the frames that it began with, and far from it nothing has moved.
+TYPED_TEST(FastSolverTest, PolishesAnEarlierField) {
+  constexpr int l = TypeParam::value;
+  const TetMesh mesh = MakeBallMesh(14);
+  FieldGraph graph = GraphOf(mesh);
+  const FieldSolution<l> field = SolveFast<l>(graph, {});
+  const int changed = 15 * 15 * 15 / 2 + 3;
+  const Eigen::Vector3d diagonal = field.frames[changed] * Eigen::Vector3d(1, 1, 0);
+  graph.alignments[changed] = Alignment::Axis(diagonal);
+  const FieldSolution<l> polished = PolishField<l>(graph, {}, field.frames);
+  EXPECT_EQ(polished.termination, ceres::CONVERGENCE);
+  ExpectField<l>(polished, graph);
+  EXPECT_LT(polished.iterations.size(), field.iterations.size() / 3);
+  std::vector<Eigen::Matrix3d> start = field.frames;
+  start[changed] = NearestAlignedFrame<4>(graph.alignments[changed], HarmonicFromFrame<4>(start[changed]));
+  EXPECT_LT(FrameEnergyOf(graph, polished.frames), FrameEnergyOf(graph, start));
+  double energy = 0;
+  for (const auto& [a, b, weight] : graph.edges) {
+    const Eigen::Matrix3d &fa = polished.frames[a], &fb = polished.frames[b];
+    energy += weight * (l == 3 ? FrameDifference<3>(fa, fb) : FrameDifference<4>(fa, fb));
+  }
+  EXPECT_NEAR(polished.energy, energy, 1e-9 * energy) << "of the frames' harmonics";
+  std::size_t num_far = 0, num_moved = 0;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    if ((mesh.points[v] - mesh.points[changed]).norm() < 0.6) continue;
+    ++num_far;
+    num_moved += FrameDifference<4>(polished.frames[v], field.frames[v]) > 20. / 3 * 0.002;  // 2.6 degrees
+  }
+  EXPECT_LT(num_moved, num_far / 100) << "but for some at singular curves";
+  EXPECT_GT(num_far, 1000u);
+  EXPECT_THROW(PolishField<l>(graph, {}, {}), std::invalid_argument);
+  start[7] *= 2;
+  EXPECT_THROW(PolishField<l>(graph, {}, start), std::invalid_argument);
 }
 
 // The road of residual blocks, from a random start and to convergence, has nothing better to offer.

@@ -12,6 +12,8 @@
 namespace octupole {
 namespace {
 
+FrameSolution Solve(const FieldGraph& graph, const MinimizerOptions& options) { return SolveHuang(graph, options); }
+
 // Alignment is soft, so the constant field is met to the accuracy of the descent.
 constexpr double kSoft = 1e-4;
 
@@ -62,6 +64,20 @@ TEST(SolveHuang, ReachesAnAxisAndAFrameOfVerticesAlone) {
   ExpectFrames(solution, graph, kSoft);
 }
 
+TEST(SolveHuang, KeepsHardVerticesExactly) {
+  const FieldGraph graph = GraphOf(MakeBallMesh(8));
+  const std::vector<int> hard = {0, 5, 40};  // of the boundary
+  const FrameSolution solution = SolveHuang(graph, {}, hard);
+  for (const int v : hard) {
+    ASSERT_NE(graph.alignments[v].kind(), AlignmentKind::kFree);
+    FrameSolution alone;
+    alone.frames = {solution.frames[v]};
+    ExpectFrames(alone, {{}, {graph.alignments[v]}});
+  }
+  EXPECT_THROW(SolveHuang(graph, {}, {-1}), std::invalid_argument);
+  EXPECT_THROW(SolveHuang(graph, {}, {9 * 9 * 9}), std::invalid_argument);
+}
+
 TEST(SolveHuang, CountsThreeUnknownsEverywhere) {
   EXPECT_EQ(SolveHuang(GraphOf(MakeBallMesh(4))).size.unknowns, 3u * 125u);
 }
@@ -75,10 +91,10 @@ TEST(SolveHuang, TakesAnyGraph) {
   }
 }
 
-TEST(SolveHuang, Repeats) { ExpectRepeats(SolveHuang, GraphOf(MakeBallMesh(14))); }
+TEST(SolveHuang, Repeats) { ExpectRepeats(Solve, GraphOf(MakeBallMesh(14))); }
 // Until it has converged its boundary is anywhere.
-TEST(SolveHuang, StopsWhenItIsToldTo) { ExpectStops(SolveHuang, GraphOf(MakeBallMesh(12)), /*tolerance=*/2); }
-TEST(SolveHuang, RefusesBadInput) { ExpectRefusals(SolveHuang); }
+TEST(SolveHuang, StopsWhenItIsToldTo) { ExpectStops(Solve, GraphOf(MakeBallMesh(12)), /*tolerance=*/2); }
+TEST(SolveHuang, RefusesBadInput) { ExpectRefusals(Solve); }
 
 }  // namespace
 }  // namespace octupole

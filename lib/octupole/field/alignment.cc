@@ -35,6 +35,24 @@ Alignment Alignment::Frame(const Eigen::Matrix3d& axes) {
   return alignment;
 }
 
+Alignment Alignment::TwoAxes(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const Eigen::Vector3d u = Axis(a).frame().col(2), v = Axis(b).frame().col(2);
+  constexpr double kLargestCosine = 0.0175;
+  if (std::abs(u.dot(v)) > kLargestCosine) {
+    std::ostringstream message;
+    message << "Alignment::TwoAxes: [" << a.transpose() << "] and [" << b.transpose() << "] are at "
+            << std::acos(u.dot(v)) * 180 / EIGEN_PI << " degrees";
+    throw std::invalid_argument(message.str());
+  }
+  // Sum and difference of unit vectors are at a right angle.
+  const Eigen::Vector3d sum = (u + v).normalized(), difference = (u - v).normalized();
+  Eigen::Matrix3d axes;
+  axes.col(0) = (sum + difference) / std::sqrt(2.);
+  axes.col(1) = (sum - difference) / std::sqrt(2.);
+  axes.col(2) = axes.col(0).cross(axes.col(1));
+  return Frame(axes);
+}
+
 template <int kDegree>
 AlignedSubspace<kDegree>::AlignedSubspace(const Alignment& alignment) {
   if (alignment.kind() == AlignmentKind::kFree) {

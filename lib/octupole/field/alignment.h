@@ -25,6 +25,11 @@ class Alignment {
   /// \throw std::invalid_argument when `axes` is not orthonormal to 1e-6 or not right-handed.
   static Alignment Frame(const Eigen::Matrix3d& axes);
 
+  /// The frame whose axes are two directions of any lengths and signs, and their cross product. What they lack to a
+  /// right angle is split evenly between them. \throw std::invalid_argument when one is zero or not finite, or they are
+  /// not within a degree of a right angle.
+  static Alignment TwoAxes(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
+
   AlignmentKind kind() const { return kind_; }
 
   /// A frame that satisfies the alignment. For kAxis its third column is the prescribed axis; for kFree it is the

@@ -26,14 +26,26 @@ struct FieldGraph {
   std::size_t num_vertices() const { return alignments.size(); }
 };
 
-/// The graph of a tet mesh: its vertices and edges in the order of MeshEdges, each edge of weight 1. Points of no
-/// tetrahedron have nothing to be smooth with and become no unknowns: their frame is prescribed, one that their
-/// alignment allows.
-/// \throw std::invalid_argument unless there is one alignment per point.
-FieldGraph MakeFieldGraph(const TetMesh& mesh, std::vector<Alignment> alignments);
+/// What an edge of a mesh weighs.
+enum class EdgeWeights {
+  /// 1, whatever its length.
+  kUniform,
+  /// Its stiffness in linear finite elements, the cotangent weights: sum over edges of weight |f_a - f_b|^2 is the
+  /// integral of |grad f|^2 over the mesh, for any f that is linear on each cell, whatever the sizes of cells. In units
+  /// of length on a tet mesh, none on a surface. Negative sums, at obtuse angles, count as 0; cells flatter than
+  /// a hundredth or so count as if they were not (theory.md, section 9).
+  kFiniteElement,
+};
+
+/// The graph of a tet mesh: its vertices and edges in the order of MeshEdges. Points of no tetrahedron have nothing to
+/// be smooth with and become no unknowns: their frame is prescribed, one that their alignment allows. \throw
+/// std::invalid_argument unless there is one alignment per point.
+FieldGraph MakeFieldGraph(const TetMesh& mesh, std::vector<Alignment> alignments,
+                          EdgeWeights weights = EdgeWeights::kUniform);
 
 /// The graph of a surface, likewise.
-FieldGraph MakeFieldGraph(const TriangleMesh& mesh, std::vector<Alignment> alignments);
+FieldGraph MakeFieldGraph(const TriangleMesh& mesh, std::vector<Alignment> alignments,
+                          EdgeWeights weights = EdgeWeights::kUniform);
 
 /// \throw std::invalid_argument naming the first edge whose ends are out of range or equal, or whose weight is negative
 /// or not finite.
@@ -41,6 +53,9 @@ void CheckFieldGraph(const FieldGraph& graph);
 
 /// The sum of the edges' weights.
 double SumOfWeights(const FieldGraph& graph);
+
+/// The mean of the edges' weights; 1 where there are none but zero.
+double MeanEdgeWeight(const FieldGraph& graph);
 
 /// How large the problem is that a field poses on a graph.
 struct ProblemSize {

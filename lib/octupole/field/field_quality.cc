@@ -6,6 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "octupole/field/field_graph.h"
 #include "octupole/frames/frame.h"
 #include "octupole/mesh/mesh_topology.h"
 #include "octupole/mesh/surface_corners.h"
@@ -61,10 +62,13 @@ FieldQuality MeasureField(const TetMesh& mesh, const std::vector<Eigen::Matrix3d
                           const std::vector<std::array<int, 3>>& boundary_triangles) {
   CheckFrames("MeasureField", mesh.points, frames);
   FieldQuality quality;
-  for (const auto& [a, b] : MeshEdges(mesh)) {
+  const std::vector<Alignment> none(mesh.points.size());
+  for (const auto& [a, b, weight] : MakeFieldGraph(mesh, none, EdgeWeights::kFiniteElement).edges) {
     ++quality.edges;
     quality.energy3 += FrameDifference<3>(frames[a], frames[b]);
-    quality.energy4 += FrameDifference<4>(frames[a], frames[b]);
+    const double difference = FrameDifference<4>(frames[a], frames[b]);
+    quality.energy4 += difference;
+    quality.energy4_fem += weight * difference;
   }
   for (const SingularTriangle& triangle : singular_triangles) {
     ++quality.singular_triangles;

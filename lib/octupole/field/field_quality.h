@@ -34,6 +34,9 @@ struct FieldQuality {
   /// Sum over the mesh's edges of FrameDifference<3> and FrameDifference<4>.
   double energy3 = 0;
   double energy4 = 0;
+  /// The sum of EdgeWeights::kFiniteElement times FrameDifference<4>, in units of length: comparable across meshes of
+  /// one shape, but for the cores of singular curves, whose energy grows with the logarithm of the resolution.
+  double energy4_fem = 0;
   /// The NormalErrors of the boundary.
   double boundary_rms_deg = 0;
   double boundary_max_deg = 0;

@@ -25,6 +25,11 @@ Harmonic<kDegree> HarmonicFromFrame(const Eigen::Matrix3d& frame);
 template <int kDegree>
 Eigen::Matrix3d NearestFrame(const Harmonic<kDegree>& h);
 
+/// The same, from a frame that may be near: faster where it is. The result does not depend on it but by rounding and
+/// where several frames are equally near.
+template <int kDegree>
+Eigen::Matrix3d NearestFrame(const Harmonic<kDegree>& h, const Eigen::Matrix3d& guess);
+
 /// The distance from h to the nearest unit octahedral harmonic, |h - HarmonicFromFrame(NearestFrame(h))|.
 /// \throw std::invalid_argument when h is zero or not finite.
 template <int kDegree>

@@ -177,6 +177,12 @@ Maximum Climb(const Harmonic<kDegree>& h, Eigen::Quaterniond rotation) {
   return {rotation, value};
 }
 
+// Whether a maximum is global for certain. The distance to the best on the ray of h is sqrt(1 - value^2).
+template <int kDegree>
+bool IsWithinReach(const Maximum& maximum) {
+  return maximum.value > 0 && 1 - maximum.value * maximum.value < kSquaredReach<kDegree>;
+}
+
 }  // namespace
 
 template <int kDegree>
@@ -188,8 +194,7 @@ internal::NearestRotation internal::FindNearestRotation(const Harmonic<kDegree>&
   Maximum best = Climb<kDegree>(h, covering.rotation(first));
   int num_climbs = 1;
   for (int i = 0; i < covering.kSize; ++i) {
-    // The distance to the best on the ray of h is sqrt(1 - value^2).
-    if (best.value > 0 && 1 - best.value * best.value < kSquaredReach<kDegree>) break;
+    if (IsWithinReach<kDegree>(best)) break;
     if (i == first || !covering.IsLocalMaximum(values, i)) continue;
     const Maximum other = Climb<kDegree>(h, covering.rotation(i));
     ++num_climbs;
@@ -218,6 +223,14 @@ Eigen::Matrix3d NearestFrame(const Harmonic<kDegree>& h) {
 }
 
 template <int kDegree>
+Eigen::Matrix3d NearestFrame(const Harmonic<kDegree>& h, const Eigen::Matrix3d& guess) {
+  const Harmonic<kDegree> unit = Normalized<kDegree>("NearestFrame", h);
+  const Maximum near = Climb<kDegree>(unit, Eigen::Quaterniond(guess));
+  if (IsWithinReach<kDegree>(near)) return near.rotation.toRotationMatrix();
+  return internal::FindNearestRotation<kDegree>(unit).rotation.toRotationMatrix();
+}
+
+template <int kDegree>
 double DistanceToFrames(const Harmonic<kDegree>& h) {
   const Eigen::Quaterniond nearest =
       internal::FindNearestRotation<kDegree>(Normalized<kDegree>("DistanceToFrames", h)).rotation;
@@ -228,6 +241,8 @@ template internal::NearestRotation internal::FindNearestRotation<3>(const Octupo
 template internal::NearestRotation internal::FindNearestRotation<4>(const Hexadecapole&);
 template Eigen::Matrix3d NearestFrame<3>(const Octupole&);
 template Eigen::Matrix3d NearestFrame<4>(const Hexadecapole&);
+template Eigen::Matrix3d NearestFrame<3>(const Octupole&, const Eigen::Matrix3d&);
+template Eigen::Matrix3d NearestFrame<4>(const Hexadecapole&, const Eigen::Matrix3d&);
 template double DistanceToFrames<3>(const Octupole&);
 template double DistanceToFrames<4>(const Hexadecapole&);
 

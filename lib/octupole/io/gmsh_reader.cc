@@ -97,7 +97,8 @@ class NodeIndices {
 
 class GmshReader {
  public:
-  explicit GmshReader(const NamedText& file) : tokens_(file.path, file.text) {}
+  explicit GmshReader(const NamedText& file)
+      : tokens_(file.path, file.text), with_other_volumes_(file.with_other_volumes) {}
 
   ParsedMesh Read() {
     bool has_format = false;
@@ -414,6 +415,10 @@ class GmshReader {
     return index;
   }
 
+  int NumWantedCorners(const ElementType& type) const {
+    return with_other_volumes_ ? NumVolumeCorners(type.plural) : 0;
+  }
+
   /// Reads the nodes of an element.
   void ReadElement(const ElementType& type, const Tags& tags) {
     TetMesh& mesh = result_.mesh;
@@ -459,6 +464,12 @@ class GmshReader {
       }
       case Kind::kOther:
         ++result_.other_cells[type.plural];
+        num_read = NumWantedCorners(type);
+        if (num_read > 0) {
+          std::array<int, 8>& corners = result_.other_volumes.emplace_back();
+          corners.fill(-1);
+          for (int i = 0; i < num_read; ++i) corners[i] = NextVertex();
+        }
     }
     Skip(type.num_nodes - num_read, is_version_4_ ? 8 : 4);
   }
@@ -470,7 +481,7 @@ class GmshReader {
     const ElementType* type = FindType(number);
     if (type == nullptr) {
       ++result_.other_cells["elements of other types"];
-    } else if (type->kind == Kind::kOther) {
+    } else if (type->kind == Kind::kOther && NumWantedCorners(*type) == 0) {
       ++result_.other_cells[type->plural];
     } else {
       ReadElement(*type, tags);
@@ -489,6 +500,7 @@ class GmshReader {
   }
 
   TextTokenizer tokens_;
+  bool with_other_volumes_;
   bool is_version_4_ = false;
   bool is_binary_ = false;
   bool swap_ = false;

@@ -24,7 +24,8 @@ const char* OtherCells(std::string_view keyword) {
 
 class MeditReader {
  public:
-  explicit MeditReader(const NamedText& file) : path_(file.path), tokens_(file.path, file.text, '#') {}
+  explicit MeditReader(const NamedText& file)
+      : path_(file.path), tokens_(file.path, file.text, '#'), with_other_volumes_(file.with_other_volumes) {}
 
   ParsedMesh Read() {
     ReadHeader();
@@ -52,6 +53,7 @@ class MeditReader {
           tokens_.Fail("a mesh of dimension " + std::to_string(dimension) + ", not 3");
         }
       } else if (const char* kind = OtherCells(keyword)) {
+        if (with_other_volumes_ && NumVolumeCorners(kind) > 0) later.emplace_back(keyword, tokens_);
         result_.other_cells[kind] += std::max(0, tokens_.NextInt("the number of cells"));
       }
       // From keyword to keyword, since the counts of other sections are wrong in some files.
@@ -97,6 +99,9 @@ class MeditReader {
     } else if (keyword == "Edges") {
       items = "edges";
       ReadEdges(tokens, tokens.NextCount(items, 3));
+    } else if (const char* kind = OtherCells(keyword)) {
+      items = kind;
+      ReadVolumes(tokens, kind);
     } else if (keyword == "Corners") {
       items = "corners";
       const int count = tokens.NextCount(items, 1);
@@ -162,6 +167,17 @@ class MeditReader {
     }
   }
 
+  void ReadVolumes(TextTokenizer& tokens, const char* kind) {
+    const int num_corners = NumVolumeCorners(kind);
+    const int count = tokens.NextCount(kind, num_corners + 1);
+    for (int i = 0; i < count; ++i) {
+      std::array<int, 8>& corners = result_.other_volumes.emplace_back();
+      corners.fill(-1);
+      for (int k = 0; k < num_corners; ++k) corners[k] = NextVertex(tokens);
+      tokens.NextInteger("a region tag");
+    }
+  }
+
   void ReadEdges(TextTokenizer& tokens, int count) {
     edges_.reserve(count);
     for (int i = 0; i < count; ++i) {
@@ -189,6 +205,7 @@ class MeditReader {
 
   std::string path_;
   TextTokenizer tokens_;
+  bool with_other_volumes_;
   ParsedMesh result_;
   std::set<std::string> found_;
   std::vector<std::array<int, 2>> edges_;

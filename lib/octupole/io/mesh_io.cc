@@ -243,6 +243,19 @@ void TidySurfaceAndNodes(TetMesh* mesh) {
 
 namespace internal {
 
+int NumVolumeCorners(std::string_view kind) {
+  return kind == kHexahedra ? 8 : kind == kPrisms ? 6 : kind == kPyramids ? 5 : 0;
+}
+
+ParsedMesh ReadAnyMesh(const std::filesystem::path& path, const std::vector<std::string>& vectors,
+                       bool with_other_volumes) {
+  const Format& format = FormatOfExtension(path);
+  if (format.read == nullptr) return ReadTetGenFiles(path, format);
+  const FileContent content(path);
+  const NamedText file{path.string(), TextOf(path, content, format), with_other_volumes};
+  return vectors.empty() || format.read != ReadVtu ? format.read(file) : ReadVtuVectors(file, vectors);
+}
+
 TetMesh FinishMesh(const std::string& path, ParsedMesh parsed, std::vector<std::string>* warnings) {
   if (parsed.mesh.tets.empty()) {
     std::string others;
@@ -270,13 +283,7 @@ TetMesh FinishMesh(const std::string& path, ParsedMesh parsed, std::vector<std::
 }  // namespace internal
 
 TetMesh ReadTetMesh(const std::filesystem::path& path, std::vector<std::string>* warnings) {
-  const Format& format = FormatOfExtension(path);
-  if (format.read == nullptr) {
-    return internal::FinishMesh(path.string(), ReadTetGenFiles(path, format), warnings);
-  }
-  const FileContent content(path);
-  const NamedText file{path.string(), TextOf(path, content, format)};
-  return internal::FinishMesh(path.string(), format.read(file), warnings);
+  return internal::FinishMesh(path.string(), internal::ReadAnyMesh(path), warnings);
 }
 
 std::vector<std::filesystem::path> TetMeshFiles(const std::filesystem::path& path) {

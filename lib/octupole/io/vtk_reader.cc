@@ -34,7 +34,9 @@ std::optional<NumberType> FindType(std::string_view name) {
 
 class VtkReader {
  public:
-  explicit VtkReader(const NamedText& file) : path_(file.path), tokens_(file.path, file.text) {}
+  explicit VtkReader(const NamedText& file) : path_(file.path), tokens_(file.path, file.text) {
+    cells_.with_other_volumes = file.with_other_volumes;
+  }
 
   ParsedMesh Read() {
     ReadHeader();

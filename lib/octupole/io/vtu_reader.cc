@@ -126,7 +126,8 @@ class ByteSource {
 
 class VtuReader {
  public:
-  explicit VtuReader(const NamedText& file) : path_(file.path) {
+  VtuReader(const NamedText& file, const std::vector<std::string>& vectors)
+      : path_(file.path), vectors_(vectors), with_other_volumes_(file.with_other_volumes) {
     // What is appended may be raw bytes, which are no XML, so the XML ends before.
     const std::size_t end = file.text.find("<AppendedData");
     xml_ = file.text.substr(0, end);
@@ -218,6 +219,7 @@ class VtuReader {
     const std::int64_t num_cells = NextAttribute(piece, "NumberOfCells", kMaxInt);
     if (num_points > 0) {
       ReadPoints(Child(Child(piece, "Points"), "DataArray"), num_points);
+      ReadVectors(piece.child("PointData"), first_point, num_points);
     }
     if (num_cells == 0) {
       return;
@@ -226,6 +228,7 @@ class VtuReader {
     const pugi::xml_node connectivity = ArrayOfName(cells_node, "connectivity");
     const pugi::xml_node offsets = ArrayOfName(cells_node, "offsets");
     VtkCells cells;
+    cells.with_other_volumes = with_other_volumes_;
     cells.types = ReadIntegers<int>(ArrayOfName(cells_node, "types"), num_cells);
     cells.ends = ReadIntegers<std::int64_t>(offsets, num_cells);
     std::int64_t previous = 0;
@@ -272,6 +275,25 @@ class VtuReader {
       }
       i = (i + 1) % 3;
     });
+  }
+
+  /// The named arrays of a piece. One that a piece lacks is zero there.
+  void ReadVectors(const pugi::xml_node& point_data, std::size_t first_point, std::int64_t num_points) {
+    for (const std::string& name : vectors_) {
+      const pugi::xml_node array = point_data.find_child_by_attribute("DataArray", "Name", name.c_str());
+      if (!array) continue;
+      if (const int components = array.attribute("NumberOfComponents").as_int(1); components != 3) {
+        Fail(array, "the point array " + name + " has " + std::to_string(components) + " numbers per point, not 3");
+      }
+      std::vector<Eigen::Vector3d>& values = result_.vectors[name];
+      values.resize(first_point, Eigen::Vector3d::Zero());
+      int i = 0;
+      ReadNumbers(array, 3 * num_points, [&](auto x) {
+        if (i == 0) values.emplace_back();
+        values.back()[i] = static_cast<double>(x);
+        i = (i + 1) % 3;
+      });
+    }
   }
 
   template <typename Integer>
@@ -405,6 +427,8 @@ class VtuReader {
   }
 
   std::string path_;
+  const std::vector<std::string>& vectors_;
+  bool with_other_volumes_;
   std::string xml_;
   mutable const char* last_position_ = nullptr;
   mutable int last_line_ = 1;
@@ -418,6 +442,12 @@ class VtuReader {
 
 }  // namespace
 
-ParsedMesh ReadVtu(const NamedText& file) { return VtuReader(file).Read(); }
+ParsedMesh ReadVtu(const NamedText& file) { return ReadVtuVectors(file, {}); }
+
+ParsedMesh ReadVtuVectors(const NamedText& file, const std::vector<std::string>& names) {
+  ParsedMesh result = VtuReader(file, names).Read();
+  for (auto& [name, values] : result.vectors) values.resize(result.mesh.points.size(), Eigen::Vector3d::Zero());
+  return result;
+}
 
 }  // namespace octupole::internal

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "octupole/field/aligned_frame.h"
 #include "octupole/field/coarse_graph.h"
+#include "octupole/harmonics/rotation.h"
+#include "octupole/solvers/field_energy.h"
 #include "octupole/solvers/internal/minimizer.h"
 
 namespace octupole {
@@ -24,6 +28,8 @@ constexpr std::size_t kMinVertices = 100;
 constexpr int kNumRandomStarts = 3;
 // Relative decrease per iteration at which the minimisation of a field ends.
 constexpr double kFieldTolerance = 1e-4;
+// The same after a local change, which is but a small part of the energy.
+constexpr double kChangeTolerance = 2e-6;
 
 double MeanWeight(const FieldGraph& graph) {
   return SumOfWeights(graph) / static_cast<double>(std::max<std::size_t>(1, graph.num_vertices()));
@@ -163,11 +169,44 @@ FieldSolution<kDegree> SolveFastFrom(const FieldGraph& graph, const EnergyWeight
   return Finish<kDegree>(graph, Reorder(graph, order), order, weights, std::move(field), &minimizer);
 }
 
+template <int kDegree>
+FieldSolution<kDegree> PolishField(const FieldGraph& graph, const EnergyWeights& weights, const Frames& frames,
+                                   const MinimizerOptions& options) {
+  CheckFieldGraph(graph);
+  if (frames.size() != graph.num_vertices()) {
+    throw std::invalid_argument("PolishField: " + std::to_string(frames.size()) + " frames for " +
+                                std::to_string(graph.num_vertices()) + " vertices");
+  }
+  Minimizer minimizer(options);
+  const std::vector<int> order = BreadthFirstOrder(graph);
+  const FieldGraph ordered = Reorder(graph, order);
+  Frames polished;
+  polished.reserve(order.size());
+  for (const int v : order) {
+    CheckRotation("PolishField", frames[v]);
+    polished.push_back(frames[v]);
+  }
+  polished = AlignFrames(ordered.alignments, std::move(polished));
+  PolishFrames(ordered, &minimizer, &polished, kChangeTolerance);
+  FieldSolution<kDegree> result;
+  static_cast<FrameSolution&>(result) =
+      minimizer.MakeSolution(graph, order, polished, 0, SizeOfProblem(graph, kUnknownsOfKind<kDegree>));
+  result.coefficients = internal::HarmonicsOf<kDegree>(result.frames);
+  const FieldEnergy<kDegree> energy(graph, weights, minimizer.workers());
+  energy.Evaluate(energy.ParametersOf(result.coefficients).data(), &result.energy, nullptr);
+  result.energy *= 2;
+  return result;
+}
+
 template FieldSolution<3> SolveFast<3>(const FieldGraph&, const EnergyWeights&, const MinimizerOptions&);
 template FieldSolution<4> SolveFast<4>(const FieldGraph&, const EnergyWeights&, const MinimizerOptions&);
 template FieldSolution<3> SolveFastFrom<3>(const FieldGraph&, const EnergyWeights&, const std::vector<Octupole>&,
                                            const MinimizerOptions&);
 template FieldSolution<4> SolveFastFrom<4>(const FieldGraph&, const EnergyWeights&, const std::vector<Hexadecapole>&,
                                            const MinimizerOptions&);
+template FieldSolution<3> PolishField<3>(const FieldGraph&, const EnergyWeights&, const Frames&,
+                                         const MinimizerOptions&);
+template FieldSolution<4> PolishField<4>(const FieldGraph&, const EnergyWeights&, const Frames&,
+                                         const MinimizerOptions&);
 
 }  // namespace octupole

@@ -58,7 +58,7 @@ OCTUPOLE_WIDE double SweepWide(const NeighbourLists& lists, const HarmonicRow<4>
 }  // namespace
 
 FrameEnergy::FrameEnergy(const FieldGraph& graph, const std::vector<Eigen::Matrix3d>& frames, Workers* workers,
-                         std::optional<double> soft_weight)
+                         std::optional<double> soft_weight, const std::vector<bool>& is_hard)
     : neighbours_(std::make_unique<NeighbourLists>((CheckFieldGraph(graph), graph))),
       frames_(frames),
       workers_(workers) {
@@ -67,13 +67,18 @@ FrameEnergy::FrameEnergy(const FieldGraph& graph, const std::vector<Eigen::Matri
     throw std::invalid_argument("FrameEnergy: " + std::to_string(frames.size()) + " frames for " +
                                 std::to_string(num_vertices) + " vertices");
   }
+  if (!is_hard.empty() && is_hard.size() != num_vertices) {
+    throw std::invalid_argument("FrameEnergy: is_hard has " + std::to_string(is_hard.size()) + " values for " +
+                                std::to_string(num_vertices) + " vertices");
+  }
+  const auto is_soft = [&](std::size_t v) { return soft_weight && (is_hard.empty() || !is_hard[v]); };
   rows_.resize(num_vertices + 1);
   first_parameter_.assign(1, 0);
   first_parameter_.reserve(num_vertices + 1);
   for (std::size_t v = 0; v < num_vertices; ++v) {
     const AlignmentKind kind = graph.alignments[v].kind();
-    const bool is_hard = kind != AlignmentKind::kFree && !soft_weight;
-    const std::size_t num_parameters = !is_hard ? 3 : kind == AlignmentKind::kAxis ? 1 : 0;
+    const bool has_three = kind == AlignmentKind::kFree || is_soft(v);
+    const std::size_t num_parameters = has_three ? 3 : kind == AlignmentKind::kAxis ? 1 : 0;
     first_parameter_.push_back(first_parameter_.back() + num_parameters);
     if (num_parameters == 0) rows_[v].Set(HarmonicOfAxes(frames[v]));
   }
@@ -83,7 +88,7 @@ FrameEnergy::FrameEnergy(const FieldGraph& graph, const std::vector<Eigen::Matri
   soft_alignment_of_.assign(num_vertices, -1);
   for (std::size_t v = 0; v < num_vertices; ++v) {
     const AlignmentKind kind = graph.alignments[v].kind();
-    if (kind == AlignmentKind::kFree) continue;
+    if (kind == AlignmentKind::kFree || !is_soft(v)) continue;
     const AlignedSubspace<4> subspace(graph.alignments[v]);
     soft_alignment_of_[v] = static_cast<int>(soft_alignments_.size());
     SoftAlignment& soft = soft_alignments_.emplace_back();

@@ -35,11 +35,12 @@ class FrameEnergy final : public ceres::FirstOrderFunction {
   /// \param frames one per vertex, which keep to the alignments: the third column along an axis (see
   /// NearestAlignedFrame).
   ///     `workers` must outlive the function.
-  /// \param soft_weight if given, alignments are soft, and the frames need not keep to them.
+  /// \param soft_weight if given, alignments are soft, and the frames need not keep to them,
+  /// \param is_hard but at these vertices: empty, or one value per vertex.
   /// \throw std::invalid_argument when the graph is malformed (see CheckFieldGraph), there are not as many frames as
-  /// vertices, or soft_weight is negative or not finite.
+  /// vertices, soft_weight is negative or not finite, or is_hard has another size.
   FrameEnergy(const FieldGraph& graph, const std::vector<Eigen::Matrix3d>& frames, Workers* workers,
-              std::optional<double> soft_weight = std::nullopt);
+              std::optional<double> soft_weight = std::nullopt, const std::vector<bool>& is_hard = {});
   ~FrameEnergy() override;
 
   int NumParameters() const override { return static_cast<int>(first_parameter_.back()); }

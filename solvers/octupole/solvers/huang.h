@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "octupole/field/field_graph.h"
 #include "octupole/solvers/field_solution.h"
 
@@ -21,10 +23,13 @@ namespace octupole {
 /// Any graph will do. The result does not depend on the number of threads. Boundary errors of about a tenth of a degree
 /// remain, the price of soft alignment. The size is that of three unknowns at every vertex.
 ///
-/// \throw std::invalid_argument when the graph is malformed (see CheckFieldGraph) or num_threads is below 1.
-FrameSolution SolveHuang(const FieldGraph& graph, const MinimizerOptions& options = {});
+/// \param hard_vertices those whose alignment holds exactly, as what a caller prescribes must.
+/// \throw std::invalid_argument when the graph is malformed (see CheckFieldGraph), num_threads is below 1, or a hard
+/// vertex is out of range.
+FrameSolution SolveHuang(const FieldGraph& graph, const MinimizerOptions& options = {},
+                         const std::vector<int>& hard_vertices = {});
 
-/// Against edges of weight 1. Ten times less leaves ten times the boundary error; ten times more doubles the time.
+/// Against edges of mean weight 1. Ten times less leaves ten times the boundary error; ten times more doubles the time.
 inline constexpr double kHuangBoundaryWeight = 100;
 
 }  // namespace octupole

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <string_view>
@@ -23,6 +24,11 @@ struct ParsedMesh {
   std::vector<std::string> warnings;
   /// The cells that are left out, by their kind in the plural ("hexahedra").
   std::map<std::string, std::int64_t> other_cells;
+  /// Where they were wanted, of those the corners of hexahedra, prisms and pyramids in the order of the file; -1 behind
+  /// the last.
+  std::vector<std::array<int, 8>> other_volumes;
+  /// The point arrays that ReadVtuVectors was asked for, one vector per point.
+  std::map<std::string, std::vector<Eigen::Vector3d>> vectors;
 };
 
 inline constexpr const char* kTriangles = "triangles";
@@ -32,16 +38,23 @@ inline constexpr const char* kPrisms = "prisms";
 inline constexpr const char* kPyramids = "pyramids";
 inline constexpr const char* kPolyhedra = "polyhedra";
 
+/// The number of corners of hexahedra, prisms and pyramids; 0 of the other kinds.
+int NumVolumeCorners(std::string_view kind);
+
 /// A file in memory; `path` only labels it.
 struct NamedText {
   std::string path;
   std::string_view text;
+  /// Whether other_volumes are wanted. Else they are not looked at, and may be damaged.
+  bool with_other_volumes = false;
 };
 
 // The readers throw std::runtime_error "path:line: message".
 ParsedMesh ReadMedit(const NamedText& file);
 ParsedMesh ReadVtk(const NamedText& file);
 ParsedMesh ReadVtu(const NamedText& file);
+/// The same with those of the named point arrays that it has, in `vectors`.
+ParsedMesh ReadVtuVectors(const NamedText& file, const std::vector<std::string>& names);
 ParsedMesh ReadGmsh(const NamedText& file);
 ParsedMesh ReadOpenVolumeMesh(const NamedText& file);
 ParsedMesh ReadTet(const NamedText& file);
@@ -58,6 +71,9 @@ inline constexpr std::array<std::array<int, 2>, 6> kGmshMidEdges = {{{0, 1}, {1,
 inline constexpr std::array<std::array<int, 2>, 6> kVtkMidEdges = {{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
 
 inline constexpr std::array<std::array<int, 2>, 6> kTetGenMidEdges = {{{2, 3}, {0, 3}, {0, 1}, {1, 2}, {1, 3}, {0, 2}}};
+/// What a file holds, in the format that its extension names; of a .vtu file with the named point arrays.
+ParsedMesh ReadAnyMesh(const std::filesystem::path& path, const std::vector<std::string>& vectors = {},
+                       bool with_other_volumes = false);
 
 /// Reads one point.
 inline Eigen::Vector3d NextPoint(TextTokenizer& tokens) {

@@ -162,8 +162,16 @@ void AddVtkCells(const VtkCells& cells, std::size_t first_point,
         check_size("a line", 2, size);
         mesh.feature_edges.push_back({index_of(begin), index_of(begin + 1)});
         break;
-      default:
-        ++result->other_cells[OtherCells(type)];
+      default: {
+        const char* kind = OtherCells(type);
+        ++result->other_cells[kind];
+        if (const int num_corners = NumVolumeCorners(kind); num_corners > 0 && cells.with_other_volumes) {
+          check_size(kind, num_corners, size);
+          std::array<int, 8>& corners = result->other_volumes.emplace_back();
+          corners.fill(-1);
+          for (int i = 0; i < num_corners; ++i) corners[i] = index_of(begin + i);
+        }
+      }
     }
   }
 }

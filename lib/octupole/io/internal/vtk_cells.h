@@ -17,6 +17,7 @@ struct VtkCells {
   std::vector<std::int64_t> connectivity;
   /// One region tag per cell, or empty.
   std::vector<int> regions;
+  bool with_other_volumes = false;
 };
 
 /// Adds the tetrahedra among the cells and what the others mark: lines and points are features, triangles with a tag

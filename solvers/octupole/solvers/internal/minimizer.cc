@@ -83,10 +83,10 @@ Frames ProjectField(const FieldGraph& graph, const std::vector<Harmonic<kDegree>
   return frames;
 }
 
-double PolishFrames(const FieldGraph& graph, Minimizer* minimizer, Frames* frames) {
+double PolishFrames(const FieldGraph& graph, Minimizer* minimizer, Frames* frames, double tolerance) {
   const FrameEnergy energy(graph, *frames, minimizer->workers());
   std::vector<double> x(energy.NumParameters(), 0);
-  const double result = minimizer->Minimize(energy, graph, kFrameTolerance, &x);
+  const double result = minimizer->Minimize(energy, graph, tolerance, &x);
   *frames = energy.FramesOf(x);
   return result;
 }

@@ -87,7 +87,7 @@ template <int kDegree>
 Frames ProjectField(const FieldGraph& graph, const std::vector<Harmonic<kDegree>>& field, Workers* workers);
 
 /// Minimises the FrameEnergy from `frames`, which become the result, and returns the energy.
-double PolishFrames(const FieldGraph& graph, Minimizer* minimizer, Frames* frames);
+double PolishFrames(const FieldGraph& graph, Minimizer* minimizer, Frames* frames, double tolerance = kFrameTolerance);
 
 /// The linear start (see ray_sokolov.h): least squares in degree 4 without penalties, and the nearest frames. Where no
 /// alignment bounds the least squares, the constant comes from a random field.
