@@ -126,7 +126,8 @@ class ByteSource {
 
 class VtuReader {
  public:
-  explicit VtuReader(const NamedText& file) : path_(file.path) {
+  /// `content`, if given, receives cells and arrays.
+  explicit VtuReader(const NamedText& file, VtuContent* content = nullptr) : path_(file.path), content_(content) {
     // What is appended may be raw bytes, which are no XML, so the XML ends before.
     const std::size_t end = file.text.find("<AppendedData");
     xml_ = file.text.substr(0, end);
@@ -219,6 +220,10 @@ class VtuReader {
     if (num_points > 0) {
       ReadPoints(Child(Child(piece, "Points"), "DataArray"), num_points);
     }
+    if (content_ != nullptr) {
+      ReadArrays(piece.child("PointData"), num_points, &content_->point_arrays);
+      ReadArrays(piece.child("CellData"), num_cells, &content_->cell_arrays);
+    }
     if (num_cells == 0) {
       return;
     }
@@ -245,6 +250,30 @@ class VtuReader {
     AddVtkCells(
         cells, first_point,
         [&](std::int64_t entry, const std::string& message) { FailAtEntry(connectivity, entry, message); }, &result_);
+    if (content_ != nullptr) AddCells(cells, connectivity, static_cast<std::int64_t>(first_point), num_points);
+  }
+
+  void ReadArrays(const pugi::xml_node& data, std::int64_t count, std::map<std::string, std::vector<double>>* arrays) {
+    for (const pugi::xml_node& array : data.children("DataArray")) {
+      if (!FindType(array.attribute("type").value())) continue;  // such as strings
+      constexpr std::int64_t kMaxComponents = 1000;
+      const std::int64_t components =
+          array.attribute("NumberOfComponents") ? NextAttribute(array, "NumberOfComponents", kMaxComponents) : 1;
+      std::vector<double>& numbers = (*arrays)[array.attribute("Name").value()];
+      ReadNumbers(array, count * components, [&](auto x) { numbers.push_back(static_cast<double>(x)); });
+    }
+  }
+
+  void AddCells(const VtkCells& piece, const pugi::xml_node& connectivity, std::int64_t first_point,
+                std::int64_t num_points) {
+    VtkCells& all = content_->cells;
+    const auto first_entry = static_cast<std::int64_t>(all.connectivity.size());
+    all.types.insert(all.types.end(), piece.types.begin(), piece.types.end());
+    for (const std::int64_t end : piece.ends) all.ends.push_back(first_entry + end);
+    for (const std::int64_t v : piece.connectivity) {
+      if (v < 0 || v >= num_points) Fail(connectivity, "vertex index " + std::to_string(v) + " is out of range");
+      all.connectivity.push_back(first_point + v);
+    }
   }
 
   pugi::xml_node ArrayOfName(const pugi::xml_node& node, const char* name) const {
@@ -405,6 +434,7 @@ class VtuReader {
   }
 
   std::string path_;
+  VtuContent* content_;
   std::string xml_;
   mutable const char* last_position_ = nullptr;
   mutable int last_line_ = 1;
@@ -419,5 +449,11 @@ class VtuReader {
 }  // namespace
 
 ParsedMesh ReadVtu(const NamedText& file) { return VtuReader(file).Read(); }
+
+VtuContent ReadVtuContent(const NamedText& file) {
+  VtuContent content;
+  content.parsed = VtuReader(file, &content).Read();
+  return content;
+}
 
 }  // namespace octupole::internal

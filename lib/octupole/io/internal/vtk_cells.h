@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,19 @@ struct VtkCells {
   /// One region tag per cell, or empty.
   std::vector<int> regions;
 };
+
+/// A VTU file with the arrays on its points and cells.
+struct VtuContent {
+  ParsedMesh parsed;
+  /// Those of all pieces, counting from the first point of all. Without regions.
+  VtkCells cells;
+  /// The arrays of numbers by name, component after component.
+  std::map<std::string, std::vector<double>> point_arrays;
+  std::map<std::string, std::vector<double>> cell_arrays;
+};
+
+/// \throw std::runtime_error "path:line: message", as the readers.
+VtuContent ReadVtuContent(const NamedText& file);
 
 /// Adds the tetrahedra among the cells and what the others mark: lines and points are features, triangles with a tag
 /// parts of surfaces. The connectivity counts from `first_point`, behind which all points of the mesh are the cells'.
