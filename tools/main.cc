@@ -24,6 +24,7 @@
 #ifdef OCTUPOLE_WITH_GMSH
 #include <gmsh.h>
 #endif
+#include "view_command.h"
 
 namespace octupole {
 namespace {
@@ -63,6 +64,7 @@ void Run(int argc, char** argv, CLI::App* app) {
 #ifdef OCTUPOLE_WITH_OPENMESH
   AddSurfaceCommand(app);
 #endif
+  AddViewCommand(app);
   // Commands run as CLI11 callbacks, so whatever they throw comes out of parse().
   app->parse(argc, argv);
 }
