@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 demo_packages=(g++ cmake ninja-build libeigen3-dev libceres-dev libcli11-dev nlohmann-json3-dev
-               libpugixml-dev zlib1g-dev libopenmesh-dev)
+               libpugixml-dev zlib1g-dev libopenmesh-dev esbuild libjs-three)
 test_packages=("${demo_packages[@]}" libgtest-dev libgmock-dev python3-meshio python3-numpy)
 
 die() {

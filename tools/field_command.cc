@@ -27,6 +27,8 @@
 #include "octupole/singularities/singular_curves.h"
 #include "octupole/singularities/surface_singularities.h"
 #include "octupole/solvers/field_solver.h"
+#include "octupole/view/field_scene.h"
+#include "octupole/view/scene_page.h"
 #ifdef OCTUPOLE_WITH_GMSH
 #include "octupole/adaptors/cad_mesher.h"
 #endif
@@ -51,6 +53,7 @@ struct Arguments {
   std::filesystem::path fra;
   std::filesystem::path quaternions;
   std::filesystem::path singularities;
+  std::filesystem::path html;
   FieldMethod method = FieldMethod::kPenalty;
   /// Its degree is by default 3, and 4 for the methods that know no other.
   SolverArguments solver;
@@ -73,6 +76,12 @@ std::string NameOf(FieldMethod method) {
     if (value == method) return name;
   }
   return "";
+}
+
+std::string TwoDecimals(double number) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.2f", number);
+  return text;
 }
 
 TetMesh LoadMesh(const Arguments& arguments, std::vector<std::string>* warnings) {
@@ -129,7 +138,8 @@ void PrintSummary(const Arguments& arguments, const nlohmann::ordered_json& repo
   std::printf("seconds    read %.2f, setup %.2f, solve %.2f, project %.2f, write %.2f\n", seconds["read"].get<double>(),
               seconds["setup"].get<double>(), seconds["solve"].get<double>(), seconds["project"].get<double>(),
               seconds["write"].get<double>());
-  for (const auto* file : {&arguments.output, &arguments.fra, &arguments.quaternions, &arguments.singularities}) {
+  for (const auto* file :
+       {&arguments.output, &arguments.fra, &arguments.quaternions, &arguments.singularities, &arguments.html}) {
     if (!file->empty()) std::printf("written    %s\n", file->string().c_str());
   }
 }
@@ -144,7 +154,9 @@ void RunField(const Arguments& arguments) {
                         {"--singularities", arguments.singularities, {".vtu"}},
                         {"--report", arguments.report},
                         {"--fra", arguments.fra},
-                        {"--quaternions", arguments.quaternions}});
+                        {"--quaternions", arguments.quaternions},
+                        {"--html", arguments.html, {".html", ".htm"}}});
+  if (!arguments.html.empty()) CheckScenePages();
   const InterruptionGuard guard;
   Stopwatch stopwatch;
   std::vector<std::string> warnings;
@@ -170,7 +182,7 @@ void RunField(const Arguments& arguments) {
   options.constraint_weight = arguments.constraint_weight;
   if (!arguments.start.empty()) {
     const FieldFile start = ReadField(arguments.start);
-    options.start_frames = TransferFrames(start.mesh, start.frames, mesh.points);
+    options.start_frames = TransferFrames(start.tet_mesh, start.frames, mesh.points);
   }
   const std::clock_t cpu_start = std::clock();
   const Field<kDegree> field = SolveField<kDegree>(mesh, options);
@@ -201,6 +213,17 @@ void RunField(const Arguments& arguments) {
   if (!arguments.quaternions.empty()) WriteQuaternions(arguments.quaternions, field.frames);
   if (!arguments.singularities.empty()) {
     WriteSingularities(arguments.singularities, curves, mesh.points, boundary, surface.quarter_indices);
+  }
+  if (!arguments.html.empty()) {
+    const auto points = SingularPoints(mesh.points, boundary, surface.quarter_indices);
+    Scene scene = MakeFieldScene(arguments.mesh.filename().string(), mesh, field.frames, curves, points,
+                                 options.feature_angle_deg);
+    scene.figures = FieldFigures(mesh, quality, curves, points);
+    scene.figures.insert(scene.figures.end(), {{"method", NameOf(arguments.method)},
+                                               {"degree", std::to_string(kDegree)},
+                                               {"seed", std::to_string(arguments.solver.seed)},
+                                               {"seconds to solve", TwoDecimals(field.solve_seconds)}});
+    WriteScenePage(arguments.html, {scene});
   }
   const double write_seconds = stopwatch.Lap();
 
@@ -282,6 +305,8 @@ void AddFieldCommand(CLI::App* app) {
       ->option_text("F.txt");
   command->add_option("--singularities", arguments->singularities, "Singular curves and points as lines and vertices")
       ->option_text("F.vtu");
+  command->add_option("--html", arguments->html, "The field as a page for the browser, as by 'octupole view'")
+      ->option_text("F.html");
   command
       ->add_option_function<std::string>(
           "--method", [arguments](const std::string& name) { arguments->method = kMethodOfName.at(name); },

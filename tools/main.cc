@@ -25,6 +25,7 @@
 #ifdef OCTUPOLE_WITH_GMSH
 #include <gmsh.h>
 #endif
+#include "view_command.h"
 
 namespace octupole {
 namespace {
@@ -65,6 +66,7 @@ void Run(int argc, char** argv, CLI::App* app) {
 #ifdef OCTUPOLE_WITH_OPENMESH
   AddSurfaceCommand(app);
 #endif
+  AddViewCommand(app);
   // Commands run as CLI11 callbacks, so whatever they throw comes out of parse().
   app->parse(argc, argv);
 }

@@ -29,7 +29,7 @@ void RunSample(const Arguments& arguments) {
   const std::vector<Eigen::Vector3d> points =
       arguments.cells ? ReadCellCenters(arguments.points) : ReadPoints(arguments.points);
   const double read_seconds = stopwatch.Lap();
-  const FieldSampler sampler(field.mesh, field.frames);
+  const FieldSampler sampler(field.tet_mesh, field.frames);
   const double build_seconds = stopwatch.Lap();
   const FieldSamples samples = sampler.Sample(points);
   const double sample_seconds = stopwatch.Lap();

@@ -18,6 +18,8 @@
 #include "octupole/io/vtu_writer.h"
 #include "octupole/singularities/surface_singularities.h"
 #include "octupole/solvers/field_solver.h"
+#include "octupole/view/field_scene.h"
+#include "octupole/view/scene_page.h"
 #include "output_files.h"
 #include "solver_arguments.h"
 
@@ -28,6 +30,7 @@ struct Arguments {
   std::filesystem::path mesh;
   std::filesystem::path output;
   std::filesystem::path report;
+  std::filesystem::path html;
   double feature_angle = 40;
   OpenBoundary open_boundary = OpenBoundary::kAligned;
   SolverArguments solver;
@@ -82,12 +85,17 @@ void PrintSummary(const Arguments& arguments, const nlohmann::ordered_json& repo
   std::printf("seconds    read %.2f, setup %.2f, solve %.2f, project %.2f, write %.2f\n", seconds["read"].get<double>(),
               seconds["setup"].get<double>(), seconds["solve"].get<double>(), seconds["project"].get<double>(),
               seconds["write"].get<double>());
-  std::printf("written    %s\n", arguments.output.string().c_str());
+  for (const auto* path : {&arguments.output, &arguments.html}) {
+    if (!path->empty()) std::printf("written    %s\n", path->string().c_str());
+  }
 }
 
 template <int kDegree>
 void RunSurface(const Arguments& arguments) {
-  CheckOutputs({arguments.mesh}, {{"--output", arguments.output, {".vtu"}}, {"--report", arguments.report}});
+  CheckOutputs({arguments.mesh}, {{"--output", arguments.output, {".vtu"}},
+                                  {"--report", arguments.report},
+                                  {"--html", arguments.html, {".html", ".htm"}}});
+  if (!arguments.html.empty()) CheckScenePages();
   const InterruptionGuard guard;
   Stopwatch stopwatch;
   std::vector<std::string> warnings;
@@ -141,8 +149,20 @@ void RunSurface(const Arguments& arguments) {
   }
 
   stopwatch.Lap();
-  WriteCrossField(arguments.output, mesh, faces, CrossField(mesh, field.frames), field.alignment.alignments,
-                  face_indices);
+  const std::vector<Eigen::Matrix3d> crosses = CrossField(mesh, field.frames);
+  WriteCrossField(arguments.output, mesh, faces, crosses, field.alignment.alignments, face_indices);
+  if (!arguments.html.empty()) {
+    Scene scene = MakeSurfaceScene(arguments.mesh.filename().string(), mesh, crosses,
+                                   SingularPoints(mesh.points, mesh.triangles, singularities.quarter_indices),
+                                   arguments.feature_angle);
+    scene.figures = {{"vertices", std::to_string(mesh.points.size())},
+                     {"faces", std::to_string(face_indices.size())},
+                     {"Euler characteristic", std::to_string(euler_characteristic)},
+                     {"singular faces", std::to_string(num_singular)},
+                     {"degree", std::to_string(kDegree)},
+                     {"seed", std::to_string(arguments.solver.seed)}};
+    WriteScenePage(arguments.html, {scene});
+  }
   const double write_seconds = stopwatch.Lap();
 
   const nlohmann::ordered_json report = {
@@ -200,6 +220,8 @@ void AddSurfaceCommand(CLI::App* app) {
   command->add_option("-o,--output", arguments->output, "The field, for ParaView; by default MESH_field.vtu, here")
       ->option_text("F.vtu");
   command->add_option("--report", arguments->report, "All figures as JSON")->option_text("F.json");
+  command->add_option("--html", arguments->html, "The field as a page for the browser, as by 'octupole view'")
+      ->option_text("F.html");
   command->add_option("--feature-angle", arguments->feature_angle, "Between normals, above which an edge is a crease")
       ->check(CLI::Range(1., 179.))
       ->option_text("DEG [40]");

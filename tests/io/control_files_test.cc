@@ -99,33 +99,6 @@ TEST_F(ControlFiles, ReadConstraintsFromPointArrays) {
   EXPECT_THAT(error([&] { ReadConstraints(write("constraint_axis"), 8); }), HasSubstr("c.vtu: point 5: "));
 }
 
-TEST_F(ControlFiles, ReadFieldGivesWhatWriteFieldWrote) {
-  TetMesh mesh = MakeBoxMesh({2, 1, 1}, {1, 1, 1});
-  mesh.regions.assign(mesh.tets.size(), 3);
-  std::mt19937 generator(1);
-  std::vector<Matrix3d> frames;
-  std::vector<Octupole> octupoles;
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    frames.push_back(RandomFrame(&generator));
-    octupoles.push_back(HarmonicFromFrame<3>(frames[v]));
-  }
-  WriteField<3>(folder_ / "f.vtu", mesh, octupoles, frames, std::vector<Alignment>(mesh.points.size()));
-  const FieldFile field = ReadField(folder_ / "f.vtu");
-  EXPECT_EQ(field.mesh.points, mesh.points);
-  EXPECT_EQ(field.mesh.tets, mesh.tets);
-  EXPECT_EQ(field.mesh.regions, mesh.regions);
-  ASSERT_EQ(field.frames.size(), frames.size());
-  for (std::size_t v = 0; v < frames.size(); ++v) EXPECT_TRUE(field.frames[v].isApprox(frames[v], 1e-14));
-
-  WriteVtu(folder_ / "m.vtu", mesh, {});
-  EXPECT_THAT(MessageOf<std::runtime_error>([&] { ReadField(folder_ / "m.vtu"); }),
-              EndsWith("m.vtu: this is no field: the point array frame_x is missing"));
-  std::vector<Vector3d> zeros(mesh.points.size(), Vector3d::Zero());
-  WriteVtu(folder_ / "z.vtu", mesh, {{"frame_x", 3, zeros[0].data()}, {"frame_y", 3, zeros[0].data()}});
-  EXPECT_THAT(MessageOf<std::runtime_error>([&] { ReadField(folder_ / "z.vtu"); }),
-              HasSubstr("z.vtu: the frame of point 0: "));
-}
-
 TEST_F(ControlFiles, ReadPointsOfTextAndOfAnyMesh) {
   const std::vector<Vector3d> expected = {{1, 2, 3}, {4, 5.5, -6}};
   EXPECT_EQ(ReadPoints(Write("p.csv", "x,y,z\n1,2,3\n4,5.5,-6\n")), expected);

@@ -25,6 +25,7 @@ ROOMS = {
     "singularities": SHAPES,
     "field": ["singularities"] + SHAPES,
     "io": ["field", "singularities"] + SHAPES,
+    "view": ["io", "field", "singularities"] + SHAPES,
     "adaptors": ["io", "field", "singularities"] + SHAPES,
     "cost_functions": ["field"] + MATHEMATICS,
     "solvers": ["cost_functions", "field", "singularities"] + SHAPES,

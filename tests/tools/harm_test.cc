@@ -50,6 +50,7 @@ class Harm : public testing::Test {
         {"field", "part.mesh", "--fra", ".fra"},
         {"field", "part.mesh", "--quaternions", ".txt"},
         {"field", "part.mesh", "--singularities", ".vtu"},
+        {"field", "part.mesh", "--html", ".html"},
         {"info", "part.mesh", "--report", ".json"},
         {"compare --methods octupole-fast", "part.mesh", "--csv", ".csv"},
         {"compare --methods octupole-fast", "part.mesh", "--json", ".json"},
@@ -57,6 +58,7 @@ class Harm : public testing::Test {
     if (Shell(OCTUPOLE_COMMAND " surface --help").exit_code == 0) {
       outputs.push_back({"surface", "part.obj", "--output", ".vtu"});
       outputs.push_back({"surface", "part.obj", "--report", ".json"});
+      outputs.push_back({"surface", "part.obj", "--html", ".html"});
     }
     return outputs;
   }

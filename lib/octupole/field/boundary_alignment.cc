@@ -83,10 +83,11 @@ CommonAlignment FindCommonAlignment(const std::vector<SurfaceCorner>& corners) {
   return common;
 }
 
-// The edges of at least `min_faces` triangles between which normals differ by more than the angle.
+}  // namespace
+
 std::vector<std::array<int, 2>> SharpEdges(const std::vector<Eigen::Vector3d>& points,
                                            const std::vector<std::array<int, 3>>& triangles, double feature_angle_deg,
-                                           int min_faces = 2) {
+                                           int min_faces) {
   const double min_cosine = std::cos(feature_angle_deg * M_PI / 180);
   struct Side {
     int a, b;
@@ -120,6 +121,8 @@ std::vector<std::array<int, 2>> SharpEdges(const std::vector<Eigen::Vector3d>& p
   }
   return edges;
 }
+
+namespace {
 
 // For every point, the unit directions of the feature edges there.
 std::vector<std::vector<Eigen::Vector3d>> FeatureDirections(const std::vector<Eigen::Vector3d>& points,

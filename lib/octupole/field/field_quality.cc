@@ -81,4 +81,19 @@ FieldQuality MeasureField(const TetMesh& mesh, const std::vector<Eigen::Matrix3d
   return quality;
 }
 
+std::vector<double> MeanDifferences(const std::vector<std::array<int, 2>>& edges,
+                                    const std::vector<Eigen::Matrix3d>& frames) {
+  std::vector<double> means(frames.size(), 0);
+  std::vector<int> counts(frames.size(), 0);
+  for (const auto& [a, b] : edges) {
+    const double difference = FrameDifference<3>(frames[a], frames[b]);
+    for (const int v : {a, b}) {
+      means[v] += difference;
+      ++counts[v];
+    }
+  }
+  for (std::size_t v = 0; v < means.size(); ++v) means[v] /= std::max(counts[v], 1);
+  return means;
+}
+
 }  // namespace octupole

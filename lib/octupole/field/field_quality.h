@@ -55,4 +55,9 @@ FieldQuality MeasureField(const TetMesh& mesh, const std::vector<Eigen::Matrix3d
                           const std::vector<SingularTriangle>& singular_triangles,
                           const std::vector<std::array<int, 3>>& boundary_triangles);
 
+/// How well the frame of each vertex fits its neighbours', the energy's density: the mean of FrameDifference<3> over
+/// the edges at the vertex, 0 where there are none. \param edges pairs of indices into `frames`.
+std::vector<double> MeanDifferences(const std::vector<std::array<int, 2>>& edges,
+                                    const std::vector<Eigen::Matrix3d>& frames);
+
 }  // namespace octupole

@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "octupole/io/internal/mesh_readers.h"
 #include "octupole/io/internal/number_rows.h"
+#include "octupole/io/internal/vtk_cells.h"
 
 namespace octupole {
 namespace {
@@ -30,15 +30,25 @@ Alignment AlignmentOfAxes(const std::vector<Vector3d>& axes) {
 }
 
 std::vector<Constraint> ReadFromVtu(const std::filesystem::path& path, std::size_t num_vertices) {
-  internal::ParsedMesh parsed = internal::ReadAnyMesh(path, {kAxisName, kSecondAxisName});
+  const internal::VtuContent content = internal::ReadVtuContent(path);
   const auto fail = [&](const std::string& message) { throw std::runtime_error(path.string() + ": " + message); };
-  if (parsed.vectors.count(kAxisName) == 0) fail(std::string("the point array ") + kAxisName + " is missing");
-  if (parsed.mesh.points.size() != num_vertices) {
-    fail(std::to_string(parsed.mesh.points.size()) + " points, but the mesh has " + std::to_string(num_vertices));
+  const std::size_t num_points = content.parsed.mesh.points.size();
+  if (num_points != num_vertices) {
+    fail(std::to_string(num_points) + " points, but the mesh has " + std::to_string(num_vertices));
   }
-  const std::vector<Vector3d>& first = parsed.vectors[kAxisName];
-  std::vector<Vector3d>& second = parsed.vectors[kSecondAxisName];
-  second.resize(num_vertices, Vector3d::Zero());
+  const auto vectors = [&](const char* name) {
+    std::vector<Vector3d> result(num_vertices, Vector3d::Zero());
+    const auto found = content.point_arrays.find(name);
+    if (found == content.point_arrays.end()) return result;
+    const std::vector<double>& numbers = found->second;
+    if (numbers.size() != 3 * num_vertices) {
+      fail(std::string("the point array ") + name + " has not 3 numbers for each point");
+    }
+    for (std::size_t v = 0; v < num_vertices; ++v) result[v] = Eigen::Map<const Vector3d>(&numbers[3 * v]);
+    return result;
+  };
+  if (content.point_arrays.count(kAxisName) == 0) fail(std::string("the point array ") + kAxisName + " is missing");
+  const std::vector<Vector3d> first = vectors(kAxisName), second = vectors(kSecondAxisName);
   std::vector<Constraint> constraints;
   for (std::size_t v = 0; v < num_vertices; ++v) {
     if (first[v].isZero(0) && second[v].isZero(0)) continue;

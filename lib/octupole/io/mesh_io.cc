@@ -247,13 +247,11 @@ int NumVolumeCorners(std::string_view kind) {
   return kind == kHexahedra ? 8 : kind == kPrisms ? 6 : kind == kPyramids ? 5 : 0;
 }
 
-ParsedMesh ReadAnyMesh(const std::filesystem::path& path, const std::vector<std::string>& vectors,
-                       bool with_other_volumes) {
+ParsedMesh ReadAnyMesh(const std::filesystem::path& path, bool with_other_volumes) {
   const Format& format = FormatOfExtension(path);
   if (format.read == nullptr) return ReadTetGenFiles(path, format);
   const FileContent content(path);
-  const NamedText file{path.string(), TextOf(path, content, format), with_other_volumes};
-  return vectors.empty() || format.read != ReadVtu ? format.read(file) : ReadVtuVectors(file, vectors);
+  return format.read({path.string(), TextOf(path, content, format), with_other_volumes});
 }
 
 TetMesh FinishMesh(const std::string& path, ParsedMesh parsed, std::vector<std::string>* warnings) {

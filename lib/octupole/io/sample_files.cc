@@ -86,7 +86,7 @@ std::vector<Vector3d> ReadPoints(const std::filesystem::path& path) {
 }
 
 std::vector<Vector3d> ReadCellCenters(const std::filesystem::path& path) {
-  const internal::ParsedMesh parsed = internal::ReadAnyMesh(path, {}, /*with_other_volumes=*/true);
+  const internal::ParsedMesh parsed = internal::ReadAnyMesh(path, /*with_other_volumes=*/true);
   std::vector<Vector3d> centers;
   for (const auto& tet : parsed.mesh.tets) centers.push_back(CenterOf(parsed.mesh.points, tet));
   for (const auto& cell : parsed.other_volumes) centers.push_back(CenterOf(parsed.mesh.points, cell));

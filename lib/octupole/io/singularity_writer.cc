@@ -2,20 +2,15 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <stdexcept>
-#include <string>
 
 #include "octupole/io/vtu_writer.h"
+#include "octupole/singularities/surface_singularities.h"
 
 namespace octupole {
 
 void WriteSingularities(const std::filesystem::path& path, const SingularCurves& curves,
                         const std::vector<Eigen::Vector3d>& points, const std::vector<std::array<int, 3>>& surface,
                         const std::vector<int>& quarter_indices) {
-  if (quarter_indices.size() != surface.size()) {
-    throw std::invalid_argument("WriteSingularities: " + std::to_string(quarter_indices.size()) + " indices for " +
-                                std::to_string(surface.size()) + " triangles");
-  }
   std::vector<Eigen::Vector3d> all_points;
   std::vector<int> lines, vertices;
   std::vector<std::int32_t> types, valences, numbers, num_ends, indices;
@@ -41,9 +36,8 @@ void WriteSingularities(const std::filesystem::path& path, const SingularCurves&
     add_cell(TurnType::kNone, 0, -1, ends, index);
   };
   for (const SingularNode& node : curves.nodes) add_vertex(node.point, node.num_ends, 0);
-  for (std::size_t t = 0; t < surface.size(); ++t) {
-    const auto& [a, b, c] = surface[t];
-    if (quarter_indices[t] != 0) add_vertex((points[a] + points[b] + points[c]) / 3, 0, quarter_indices[t]);
+  for (const SingularPoint& point : SingularPoints(points, surface, quarter_indices)) {
+    add_vertex(point.point, 0, point.quarter_index);
   }
   WriteVtu(
       path, all_points,

@@ -126,8 +126,9 @@ class ByteSource {
 
 class VtuReader {
  public:
-  VtuReader(const NamedText& file, const std::vector<std::string>& vectors)
-      : path_(file.path), vectors_(vectors), with_other_volumes_(file.with_other_volumes) {
+  /// `content`, if given, receives cells and arrays.
+  explicit VtuReader(const NamedText& file, VtuContent* content = nullptr)
+      : path_(file.path), with_other_volumes_(file.with_other_volumes), content_(content) {
     // What is appended may be raw bytes, which are no XML, so the XML ends before.
     const std::size_t end = file.text.find("<AppendedData");
     xml_ = file.text.substr(0, end);
@@ -219,7 +220,10 @@ class VtuReader {
     const std::int64_t num_cells = NextAttribute(piece, "NumberOfCells", kMaxInt);
     if (num_points > 0) {
       ReadPoints(Child(Child(piece, "Points"), "DataArray"), num_points);
-      ReadVectors(piece.child("PointData"), first_point, num_points);
+    }
+    if (content_ != nullptr) {
+      ReadArrays(piece.child("PointData"), num_points, &content_->point_arrays);
+      ReadArrays(piece.child("CellData"), num_cells, &content_->cell_arrays);
     }
     if (num_cells == 0) {
       return;
@@ -248,6 +252,30 @@ class VtuReader {
     AddVtkCells(
         cells, first_point,
         [&](std::int64_t entry, const std::string& message) { FailAtEntry(connectivity, entry, message); }, &result_);
+    if (content_ != nullptr) AddCells(cells, connectivity, static_cast<std::int64_t>(first_point), num_points);
+  }
+
+  void ReadArrays(const pugi::xml_node& data, std::int64_t count, std::map<std::string, std::vector<double>>* arrays) {
+    for (const pugi::xml_node& array : data.children("DataArray")) {
+      if (!FindType(array.attribute("type").value())) continue;  // such as strings
+      constexpr std::int64_t kMaxComponents = 1000;
+      const std::int64_t components =
+          array.attribute("NumberOfComponents") ? NextAttribute(array, "NumberOfComponents", kMaxComponents) : 1;
+      std::vector<double>& numbers = (*arrays)[array.attribute("Name").value()];
+      ReadNumbers(array, count * components, [&](auto x) { numbers.push_back(static_cast<double>(x)); });
+    }
+  }
+
+  void AddCells(const VtkCells& piece, const pugi::xml_node& connectivity, std::int64_t first_point,
+                std::int64_t num_points) {
+    VtkCells& all = content_->cells;
+    const auto first_entry = static_cast<std::int64_t>(all.connectivity.size());
+    all.types.insert(all.types.end(), piece.types.begin(), piece.types.end());
+    for (const std::int64_t end : piece.ends) all.ends.push_back(first_entry + end);
+    for (const std::int64_t v : piece.connectivity) {
+      if (v < 0 || v >= num_points) Fail(connectivity, "vertex index " + std::to_string(v) + " is out of range");
+      all.connectivity.push_back(first_point + v);
+    }
   }
 
   pugi::xml_node ArrayOfName(const pugi::xml_node& node, const char* name) const {
@@ -275,25 +303,6 @@ class VtuReader {
       }
       i = (i + 1) % 3;
     });
-  }
-
-  /// The named arrays of a piece. One that a piece lacks is zero there.
-  void ReadVectors(const pugi::xml_node& point_data, std::size_t first_point, std::int64_t num_points) {
-    for (const std::string& name : vectors_) {
-      const pugi::xml_node array = point_data.find_child_by_attribute("DataArray", "Name", name.c_str());
-      if (!array) continue;
-      if (const int components = array.attribute("NumberOfComponents").as_int(1); components != 3) {
-        Fail(array, "the point array " + name + " has " + std::to_string(components) + " numbers per point, not 3");
-      }
-      std::vector<Eigen::Vector3d>& values = result_.vectors[name];
-      values.resize(first_point, Eigen::Vector3d::Zero());
-      int i = 0;
-      ReadNumbers(array, 3 * num_points, [&](auto x) {
-        if (i == 0) values.emplace_back();
-        values.back()[i] = static_cast<double>(x);
-        i = (i + 1) % 3;
-      });
-    }
   }
 
   template <typename Integer>
@@ -427,8 +436,8 @@ class VtuReader {
   }
 
   std::string path_;
-  const std::vector<std::string>& vectors_;
   bool with_other_volumes_;
+  VtuContent* content_;
   std::string xml_;
   mutable const char* last_position_ = nullptr;
   mutable int last_line_ = 1;
@@ -442,12 +451,20 @@ class VtuReader {
 
 }  // namespace
 
-ParsedMesh ReadVtu(const NamedText& file) { return ReadVtuVectors(file, {}); }
+ParsedMesh ReadVtu(const NamedText& file) { return VtuReader(file).Read(); }
 
-ParsedMesh ReadVtuVectors(const NamedText& file, const std::vector<std::string>& names) {
-  ParsedMesh result = VtuReader(file, names).Read();
-  for (auto& [name, values] : result.vectors) values.resize(result.mesh.points.size(), Eigen::Vector3d::Zero());
-  return result;
+VtuContent ReadVtuContent(const NamedText& file) {
+  VtuContent content;
+  content.parsed = VtuReader(file, &content).Read();
+  return content;
+}
+
+VtuContent ReadVtuContent(const std::filesystem::path& path) {
+  const FileContent file(path);
+  if (file.text().substr(0, 512).find("<VTKFile") == std::string_view::npos) {
+    throw std::runtime_error(path.string() + ": this is no VTU file");
+  }
+  return ReadVtuContent(NamedText{path.string(), file.text()});
 }
 
 }  // namespace octupole::internal

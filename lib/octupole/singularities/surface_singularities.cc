@@ -255,4 +255,19 @@ std::vector<int> QuarterIndices(const Points& points, const Triangles& triangles
   return FindSurfaceSingularities(points, triangles, frames).quarter_indices;
 }
 
+std::vector<SingularPoint> SingularPoints(const std::vector<Eigen::Vector3d>& points,
+                                          const std::vector<std::array<int, 3>>& triangles,
+                                          const std::vector<int>& quarter_indices) {
+  if (quarter_indices.size() != triangles.size()) {
+    throw std::invalid_argument("SingularPoints: " + std::to_string(quarter_indices.size()) + " indices for " +
+                                std::to_string(triangles.size()) + " triangles");
+  }
+  std::vector<SingularPoint> singular;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const auto& [a, b, c] = triangles[t];
+    if (quarter_indices[t] != 0) singular.push_back({(points[a] + points[b] + points[c]) / 3, quarter_indices[t]});
+  }
+  return singular;
+}
+
 }  // namespace octupole

@@ -55,4 +55,17 @@ std::vector<int> QuarterIndices(const std::vector<Eigen::Vector3d>& points,
                                 const std::vector<std::array<int, 3>>& triangles,
                                 const std::vector<Eigen::Matrix3d>& frames);
 
+/// A singular point of a surface, in the middle of its triangle.
+struct SingularPoint {
+  Eigen::Vector3d point;
+  /// Four times its index, not 0.
+  int quarter_index = 0;
+};
+
+/// The singular points that QuarterIndices tell of.
+/// \throw std::invalid_argument unless there is one index per triangle.
+std::vector<SingularPoint> SingularPoints(const std::vector<Eigen::Vector3d>& points,
+                                          const std::vector<std::array<int, 3>>& triangles,
+                                          const std::vector<int>& quarter_indices);
+
 }  // namespace octupole

@@ -27,8 +27,6 @@ struct ParsedMesh {
   /// Where they were wanted, of those the corners of hexahedra, prisms and pyramids in the order of the file; -1 behind
   /// the last.
   std::vector<std::array<int, 8>> other_volumes;
-  /// The point arrays that ReadVtuVectors was asked for, one vector per point.
-  std::map<std::string, std::vector<Eigen::Vector3d>> vectors;
 };
 
 inline constexpr const char* kTriangles = "triangles";
@@ -53,8 +51,6 @@ struct NamedText {
 ParsedMesh ReadMedit(const NamedText& file);
 ParsedMesh ReadVtk(const NamedText& file);
 ParsedMesh ReadVtu(const NamedText& file);
-/// The same with those of the named point arrays that it has, in `vectors`.
-ParsedMesh ReadVtuVectors(const NamedText& file, const std::vector<std::string>& names);
 ParsedMesh ReadGmsh(const NamedText& file);
 ParsedMesh ReadOpenVolumeMesh(const NamedText& file);
 ParsedMesh ReadTet(const NamedText& file);
@@ -69,11 +65,10 @@ TetMesh FinishMesh(const std::string& path, ParsedMesh parsed, std::vector<std::
 /// TetGen (checked on what its option -o2 writes) have them.
 inline constexpr std::array<std::array<int, 2>, 6> kGmshMidEdges = {{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {2, 3}, {1, 3}}};
 inline constexpr std::array<std::array<int, 2>, 6> kVtkMidEdges = {{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
-
 inline constexpr std::array<std::array<int, 2>, 6> kTetGenMidEdges = {{{2, 3}, {0, 3}, {0, 1}, {1, 2}, {1, 3}, {0, 2}}};
-/// What a file holds, in the format that its extension names; of a .vtu file with the named point arrays.
-ParsedMesh ReadAnyMesh(const std::filesystem::path& path, const std::vector<std::string>& vectors = {},
-                       bool with_other_volumes = false);
+
+/// What a file holds, in the format that its extension names.
+ParsedMesh ReadAnyMesh(const std::filesystem::path& path, bool with_other_volumes = false);
 
 /// Reads one point.
 inline Eigen::Vector3d NextPoint(TextTokenizer& tokens) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,20 @@ struct VtkCells {
   std::vector<int> regions;
   bool with_other_volumes = false;
 };
+
+/// A VTU file with the arrays on its points and cells.
+struct VtuContent {
+  ParsedMesh parsed;
+  /// Those of all pieces, counting from the first point of all. Without regions.
+  VtkCells cells;
+  /// The arrays of numbers by name, component after component.
+  std::map<std::string, std::vector<double>> point_arrays;
+  std::map<std::string, std::vector<double>> cell_arrays;
+};
+
+/// \throw std::runtime_error "path:line: message", as the readers.
+VtuContent ReadVtuContent(const NamedText& file);
+VtuContent ReadVtuContent(const std::filesystem::path& path);
 
 /// Adds the tetrahedra among the cells and what the others mark: lines and points are features, triangles with a tag
 /// parts of surfaces. The connectivity counts from `first_point`, behind which all points of the mesh are the cells'.
