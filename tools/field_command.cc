@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -24,6 +23,7 @@
 #include "octupole/singularities/singular_curves.h"
 #include "octupole/singularities/surface_singularities.h"
 #include "octupole/solvers/field_solver.h"
+#include "octupole/solvers/method_names.h"
 #ifdef OCTUPOLE_WITH_GMSH
 #include "octupole/adaptors/cad_mesher.h"
 #endif
@@ -33,11 +33,6 @@
 
 namespace octupole {
 namespace {
-
-const std::map<std::string, FieldMethod> kMethodOfName = {{"penalty", FieldMethod::kPenalty},
-                                                          {"ray-sokolov", FieldMethod::kRaySokolov},
-                                                          {"huang", FieldMethod::kHuang},
-                                                          {"mbo", FieldMethod::kMbo}};
 
 struct Arguments {
   std::filesystem::path mesh;
@@ -55,13 +50,6 @@ struct Arguments {
   std::optional<double> feature_angle;
   RegionUse regions = RegionUse::kAutomatic;
 };
-
-std::string NameOf(FieldMethod method) {
-  for (const auto& [name, value] : kMethodOfName) {
-    if (value == method) return name;
-  }
-  return "";
-}
 
 TetMesh LoadMesh(const Arguments& arguments, std::vector<std::string>* warnings) {
 #ifdef OCTUPOLE_WITH_GMSH
@@ -251,7 +239,7 @@ void AddFieldCommand(CLI::App* app) {
       ->option_text("F.vtu");
   command
       ->add_option_function<std::string>(
-          "--method", [arguments](const std::string& name) { arguments->method = kMethodOfName.at(name); },
+          "--method", [arguments](const std::string& name) { arguments->method = FieldMethodOf(name); },
           "penalty, or of the classics in degree 4 ray-sokolov, huang or mbo")
       ->check(CLI::IsMember({"penalty", "ray-sokolov", "huang", "mbo"}))
       ->option_text("NAME [penalty]");
