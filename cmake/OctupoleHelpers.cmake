@@ -34,9 +34,60 @@ function(octupole_add_library component)
   if(arg_LINK_PRIVATE)
     target_link_libraries(${target} PRIVATE ${arg_LINK_PRIVATE})
   endif()
-  install(TARGETS ${target} EXPORT octupole-${component} FILE_SET HEADERS)
-  install(EXPORT octupole-${component} NAMESPACE octupole::
+  install(TARGETS ${target} EXPORT octupole-${component}
+          LIBRARY COMPONENT libraries NAMELINK_COMPONENT development
+          ARCHIVE COMPONENT development
+          FILE_SET HEADERS COMPONENT development)
+  install(EXPORT octupole-${component} NAMESPACE octupole:: COMPONENT development
           FILE octupole-${component}-targets.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/octupole)
+  if(NOT BUILD_SHARED_LIBS)  # a static library leaves it to its users to link what it uses inside
+    list(APPEND arg_LINK ${arg_LINK_PRIVATE})
+  endif()
+  octupole_install_pkg_config(${component} "${arg_LINK}" "${arg_SOURCES}")
+endfunction()
+
+# octupole_install_pkg_config(<component> <linked targets> <sources>): octupole-<component>.pc, wherever the prefix is.
+function(octupole_install_pkg_config component targets sources)
+  set(packages)
+  set(libraries)
+  if(sources)
+    set(libraries -loctupole_${component})
+  endif()
+  foreach(target IN LISTS targets)
+    if(target MATCHES "^octupole::(.*)")
+      list(APPEND packages octupole-${CMAKE_MATCH_1})
+    elseif(target STREQUAL Eigen3::Eigen)
+      list(APPEND packages eigen3)
+    elseif(target STREQUAL Ceres::ceres)  # has no file of its own
+      list(APPEND packages libglog)
+      list(APPEND libraries -lceres)
+    elseif(target STREQUAL OpenMeshCore)
+      list(APPEND packages openmesh)
+    elseif(target STREQUAL pugixml::pugixml)
+      list(APPEND packages pugixml)
+    elseif(target STREQUAL ZLIB::ZLIB)
+      list(APPEND packages zlib)
+    elseif(target STREQUAL Gmsh::Gmsh)
+      list(APPEND libraries -lgmsh)
+    else()
+      message(FATAL_ERROR "octupole_install_pkg_config: ${target}: say here what pkg-config calls it")
+    endif()
+  endforeach()
+  list(JOIN packages " " packages)
+  list(JOIN libraries " " libraries)
+  set(destination ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+  file(RELATIVE_PATH to_prefix /${destination} /)
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/octupole.pc.in ${CMAKE_CURRENT_BINARY_DIR}/octupole-${component}.pc @ONLY)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/octupole-${component}.pc DESTINATION ${destination} COMPONENT development)
+endfunction()
+
+# Debian has Ceres in both kinds, and tells CMake of the static one only. Each of our shared libraries would hold a copy.
+function(octupole_prefer_shared_ceres)
+  get_target_property(location Ceres::ceres IMPORTED_LOCATION_RELEASE)
+  string(REGEX REPLACE "\\.a$" ".so" shared "${location}")
+  if(BUILD_SHARED_LIBS AND EXISTS "${shared}")
+    set_target_properties(Ceres::ceres PROPERTIES IMPORTED_LOCATION_RELEASE "${shared}")
+  endif()
 endfunction()
 
 # Installs the package configuration behind find_package(octupole).
@@ -45,8 +96,9 @@ function(octupole_install_package)
   configure_package_config_file(cmake/octupole-config.cmake.in octupole-config.cmake INSTALL_DESTINATION ${destination})
   write_basic_package_version_file(octupole-config-version.cmake COMPATIBILITY SameMinorVersion)
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/octupole-config.cmake
-                ${CMAKE_CURRENT_BINARY_DIR}/octupole-config-version.cmake DESTINATION ${destination})
+                ${CMAKE_CURRENT_BINARY_DIR}/octupole-config-version.cmake DESTINATION ${destination}
+          COMPONENT development)
   if(OCTUPOLE_WITH_GMSH)
-    install(FILES cmake/FindGmsh.cmake DESTINATION ${destination})
+    install(FILES cmake/FindGmsh.cmake DESTINATION ${destination} COMPONENT development)
   endif()
 endfunction()

@@ -1,4 +1,4 @@
-# Sourced by scripts/demo and scripts/test: goes to the repository's root, and gives them what they share.
+# Sourced by the other scripts: goes to the repository's root, and gives them what they share.
 # Needs nothing but what a bare Debian has.
 
 set -euo pipefail
@@ -7,6 +7,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 demo_packages=(g++ cmake ninja-build libeigen3-dev libceres-dev libcli11-dev nlohmann-json3-dev
                libpugixml-dev zlib1g-dev libopenmesh-dev esbuild libjs-three)
 test_packages=("${demo_packages[@]}" libgtest-dev libgmock-dev python3-meshio python3-numpy)
+package_packages=("${demo_packages[@]}" pybind11-dev python3-dev python3-numpy help2man dpkg-dev file)
 
 die() {
   echo "$(basename "$0"): $*" >&2

@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -27,6 +26,7 @@
 #include "octupole/singularities/singular_curves.h"
 #include "octupole/singularities/surface_singularities.h"
 #include "octupole/solvers/field_solver.h"
+#include "octupole/solvers/method_names.h"
 #include "octupole/view/field_scene.h"
 #include "octupole/view/scene_page.h"
 #ifdef OCTUPOLE_WITH_GMSH
@@ -38,11 +38,6 @@
 
 namespace octupole {
 namespace {
-
-const std::map<std::string, FieldMethod> kMethodOfName = {{"penalty", FieldMethod::kPenalty},
-                                                          {"ray-sokolov", FieldMethod::kRaySokolov},
-                                                          {"huang", FieldMethod::kHuang},
-                                                          {"mbo", FieldMethod::kMbo}};
 
 struct Arguments {
   std::filesystem::path mesh;
@@ -70,13 +65,6 @@ struct Arguments {
 
 const std::map<std::string, EdgeWeights> kWeightsOfName = {{"uniform", EdgeWeights::kUniform},
                                                            {"fem", EdgeWeights::kFiniteElement}};
-
-std::string NameOf(FieldMethod method) {
-  for (const auto& [name, value] : kMethodOfName) {
-    if (value == method) return name;
-  }
-  return "";
-}
 
 std::string TwoDecimals(double number) {
   char text[32];
@@ -309,7 +297,7 @@ void AddFieldCommand(CLI::App* app) {
       ->option_text("F.html");
   command
       ->add_option_function<std::string>(
-          "--method", [arguments](const std::string& name) { arguments->method = kMethodOfName.at(name); },
+          "--method", [arguments](const std::string& name) { arguments->method = FieldMethodOf(name); },
           "penalty, or of the classics in degree 4 ray-sokolov, huang or mbo")
       ->check(CLI::IsMember({"penalty", "ray-sokolov", "huang", "mbo"}))
       ->option_text("NAME [penalty]");

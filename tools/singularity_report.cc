@@ -9,8 +9,6 @@
 namespace octupole {
 namespace {
 
-constexpr std::array<const char*, 5> kNameOfType = {"none", "quarter", "half", "diagonal_half", "third"};
-
 struct Group {
   std::size_t curves = 0;
   std::size_t loops = 0;
@@ -21,8 +19,8 @@ struct Group {
 
 nlohmann::ordered_json CountsByType(const FieldQuality& quality) {
   nlohmann::ordered_json counts;
-  for (std::size_t type = 1; type < kNameOfType.size(); ++type) {
-    counts[kNameOfType[type]] = quality.singular_triangles_of_type[type];
+  for (std::size_t type = 1; type < kTurnTypeNames.size(); ++type) {
+    counts[kTurnTypeNames[type]] = quality.singular_triangles_of_type[type];
   }
   return counts;
 }
@@ -41,7 +39,7 @@ nlohmann::ordered_json SingularStructure(const SingularCurves& curves, const Sur
   }
   auto by_type = nlohmann::ordered_json::array();
   for (const auto& [key, group] : groups) {
-    by_type.push_back({{"type", kNameOfType[static_cast<std::size_t>(key.first)]},
+    by_type.push_back({{"type", kTurnTypeNames[static_cast<std::size_t>(key.first)]},
                        {"valence", key.second},
                        {"curves", group.curves},
                        {"loops", group.loops},

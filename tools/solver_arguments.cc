@@ -4,16 +4,12 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <map>
 
+#include "octupole/solvers/method_names.h"
 #include "octupole/solvers/solver_presets.h"
 
 namespace octupole {
 namespace {
-
-const std::map<std::string, SolverPreset> kSolverOfName = {{"cholesky", SolverPreset::kSparseCholesky},
-                                                           {"cgnr", SolverPreset::kConjugateGradients},
-                                                           {"lbfgs", SolverPreset::kLbfgs}};
 
 void LogStep(const StepSummary& step) {
   if (step.num_vertices == 0) {
@@ -71,9 +67,9 @@ void SetSolverOptions(const SolverArguments& arguments, ceres::IterationCallback
     FLAGS_minloglevel = google::INFO;
     options->minimizer.step_callback = LogStep;
   }
-  const std::string solver = arguments.solver.value_or("fast");
-  if (solver == "fast") return;
-  options->solver = MakeSolverOptions(kSolverOfName.at(solver));
+  const std::optional<SolverPreset> preset = SolverPresetOf(arguments.solver.value_or("fast"));
+  if (!preset) return;
+  options->solver = MakeSolverOptions(*preset);
   options->solver->num_threads = arguments.threads;
   if (arguments.max_iterations) options->solver->max_num_iterations = *arguments.max_iterations;
   options->solver->callbacks.push_back(callback);

@@ -15,9 +15,10 @@
 #include "octupole/adaptors/triangle_mesh_reader.h"
 #include "octupole/field/cross_field.h"
 #include "octupole/frames/frame.h"
-#include "octupole/io/vtu_writer.h"
+#include "octupole/io/cross_field_writer.h"
 #include "octupole/singularities/surface_singularities.h"
 #include "octupole/solvers/field_solver.h"
+#include "octupole/solvers/method_names.h"
 #include "octupole/view/field_scene.h"
 #include "octupole/view/scene_page.h"
 #include "output_files.h"
@@ -35,30 +36,6 @@ struct Arguments {
   OpenBoundary open_boundary = OpenBoundary::kAligned;
   SolverArguments solver;
 };
-
-// The field on the triangles, and on them the face that each was cut from.
-void WriteCrossField(const std::filesystem::path& path, const TriangleMesh& mesh,
-                     const std::vector<int>& faces_of_triangles, const std::vector<Eigen::Matrix3d>& crosses,
-                     const std::vector<Alignment>& alignments, const std::vector<int>& face_indices) {
-  std::array<std::vector<Eigen::Vector3d>, 3> axes;
-  for (const Eigen::Matrix3d& cross : crosses) {
-    for (int k = 0; k < 3; ++k) axes[k].push_back(cross.col(k));
-  }
-  std::vector<std::int32_t> kinds;
-  kinds.reserve(alignments.size());
-  for (const Alignment& alignment : alignments) kinds.push_back(static_cast<std::int32_t>(alignment.kind()));
-  std::vector<std::int32_t> faces, indices;
-  for (const int face : faces_of_triangles) {
-    faces.push_back(face);
-    indices.push_back(face_indices[face]);
-  }
-  WriteVtu(path, mesh.points, {{VtuCellType::kTriangle, mesh.triangles[0].data(), mesh.triangles.size()}},
-           {{"tangent_u", 3, axes[0][0].data()},
-            {"tangent_v", 3, axes[1][0].data()},
-            {"normal", 3, axes[2][0].data()},
-            {"alignment", 1, kinds.data()}},
-           {{"face", 1, faces.data()}, {"quarter_index", 1, indices.data()}});
-}
 
 void PrintSummary(const Arguments& arguments, const nlohmann::ordered_json& report) {
   const auto integer = [](const nlohmann::ordered_json& value) { return value.get<int>(); };
@@ -127,8 +104,7 @@ void RunSurface(const Arguments& arguments) {
     energy4 += FrameDifference<4>(field.frames[a], field.frames[b]);
   }
   const SurfaceSingularities singularities = FindSurfaceSingularities(mesh.points, mesh.triangles, field.frames);
-  std::vector<int> face_indices(faces.back() + 1, 0);
-  for (std::size_t t = 0; t < faces.size(); ++t) face_indices[faces[t]] += singularities.quarter_indices[t];
+  const std::vector<int> face_indices = QuarterIndicesOfFaces(faces, singularities.quarter_indices);
   int euler_characteristic = 0, quarter_sum = 0;
   bool is_closed = true;
   for (const SurfaceComponent& component : singularities.components) {
@@ -227,10 +203,7 @@ void AddSurfaceCommand(CLI::App* app) {
       ->option_text("DEG [40]");
   command
       ->add_option_function<std::string>(
-          "--boundary",
-          [arguments](const std::string& name) {
-            arguments->open_boundary = name == "free" ? OpenBoundary::kFree : OpenBoundary::kAligned;
-          },
+          "--boundary", [arguments](const std::string& name) { arguments->open_boundary = OpenBoundaryOf(name); },
           "Where the surface is open, its border: aligned or free")
       ->check(CLI::IsMember({"aligned", "free"}))
       ->option_text("NAME [aligned]");

@@ -18,7 +18,7 @@ function(run)
 endfunction()
 
 set(configure ${CMAKE_COMMAND} -G ${GENERATOR} -S ${CMAKE_CURRENT_LIST_DIR}/consumer
-    -D CMAKE_CXX_COMPILER=${CXX_COMPILER} -D CMAKE_CXX_FLAGS= -D CMAKE_CXX_STANDARD=14 -D CMAKE_EXPORT_COMPILE_COMMANDS=ON)
+    -D VERSION=${VERSION} -D CMAKE_CXX_COMPILER=${CXX_COMPILER} -D CMAKE_CXX_FLAGS= -D CMAKE_CXX_STANDARD=14 -D CMAKE_EXPORT_COMPILE_COMMANDS=ON)
 
 # consume(<name> <arguments for the consumer's configuration> ...): configures, builds and runs it, and looks at how its
 # own sources were compiled: of ours, nothing but include folders and C++17 (in place of the 14 asked for) reaches them.

@@ -80,7 +80,7 @@ TEST_F(ControlCommand, FieldStartsFromAFieldOfThisMeshOrAnother) {
   EXPECT_EQ(Field("--method mbo --start " + Path("start.vtu")).exit_code, 2);
   const Outcome no_field = Field("--start " + Path("mesh.mesh"));
   EXPECT_EQ(no_field.exit_code, 1);
-  EXPECT_THAT(no_field.err, HasSubstr("mesh.mesh: this is no field"));
+  EXPECT_THAT(no_field.err, HasSubstr("mesh.mesh: this is no VTU file"));
 }
 
 TEST_F(ControlCommand, SampleGivesFramesAtPointsVerticesAndCells) {

@@ -38,6 +38,9 @@ enum class TurnType : std::uint8_t {
   kThird = 4,         ///< by 120 degrees about a diagonal of the cube, 8
 };
 
+/// By TurnType, as reports and files call them.
+inline constexpr std::array<const char*, 5> kTurnTypeNames = {"none", "quarter", "half", "diagonal_half", "third"};
+
 TurnType TypeOf(const OctahedralRotation& g);
 
 /// The holonomy of a triangle whose corners have the frames a, b, c: the product of the matches around it, from a to b

@@ -1,0 +1,179 @@
+"""Frame fields on tetrahedral meshes and cross fields on surfaces.
+
+    import octupole
+    field = octupole.solve(points, tets)      # or octupole.solve(octupole.read("part.mesh"))
+    field.frames                              # (n, 3, 3): the columns are the axes at each vertex
+    field.write("part.vtu")
+
+Coordinates are in any one unit of length, angles in degrees unless said otherwise. Arrays that belong to a mesh or to a
+field are views of its memory and read-only; .copy() them to change them.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Callable, Optional
+
+from ._core import (
+    Field,
+    FieldQuality,
+    GraphField,
+    SingularCurve,
+    SingularCurves,
+    SurfaceField,
+    TetMesh,
+    TriangleMesh,
+    __version__,
+    _solve,
+    _solve_surface,
+    box_mesh,
+    deviation,
+    frame_angle,
+    frame_difference,
+    harmonic_basis,
+    harmonic_of_frame,
+    hexadecapole_of_octupole,
+    measure,
+    nearest_frame,
+    read,
+    read_surface,
+    rotation_matrix,
+)
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+__all__ = [
+    "Field",
+    "FieldQuality",
+    "GraphField",
+    "SingularCurve",
+    "SingularCurves",
+    "SurfaceField",
+    "TetMesh",
+    "TriangleMesh",
+    "box_mesh",
+    "deviation",
+    "frame_angle",
+    "frame_difference",
+    "harmonic_basis",
+    "harmonic_of_frame",
+    "hexadecapole_of_octupole",
+    "measure",
+    "nearest_frame",
+    "read",
+    "read_surface",
+    "rotation_matrix",
+    "solve",
+    "solve_surface",
+]
+
+# callback(iteration, energy, seconds)
+Callback = Callable[[int, float, float], Any]
+
+
+def solve(
+    points: TetMesh | ArrayLike,
+    tets: Optional[ArrayLike] = None,
+    *,
+    degree: int = 3,
+    method: str = "penalty",
+    feature_angle: float = 40.0,
+    seed: int = 0,
+    threads: int = 1,
+    solver: str = "fast",
+    max_iterations: Optional[int] = None,
+    regions: Optional[ArrayLike] = None,
+    follow_regions: Optional[bool] = None,
+    feature_edges: Optional[ArrayLike] = None,
+    callback: Optional[Callback] = None,
+) -> Field:
+    """A frame field on a tet mesh, smooth inside and aligned with the boundary.
+
+    points: (n, 3) coordinates; or a TetMesh, as read() gives it, without `tets`.
+    tets: (m, 4) indices of points, from 0.
+    degree: 3 for octupoles, 4 for hexadecapoles.
+    method: "penalty", or of the classics of degree 4 "ray-sokolov", "huang" or "mbo". These minimise over frames;
+        `degree` says only which of their harmonics are the coefficients.
+    feature_angle: degrees between normals, above which an edge of the boundary is a feature; the field follows it.
+    seed: of the random starts. The same seed gives the same field.
+    threads: for the solver; the field does not depend on it.
+    solver: "fast", or of Ceres "lbfgs", "cgnr" or "cholesky".
+    max_iterations: stop there, converged or not.
+    regions: (m,) integers, the material of each tet.
+    follow_regions: whether faces between regions, and tagged triangles inside, align the field as the boundary does; if
+        None, where they make surfaces.
+    feature_edges: (k, 2) pairs of points, edges that the field is to follow; no others are searched for then.
+    callback: called as callback(iteration, energy, seconds) after every iteration of the minimisation at work, often
+        one on a coarser mesh. When it returns something true, the solver stops and the field reached so far is the
+        result. What it raises stops the solver, too, and is raised by solve().
+
+    Python's lock is released while solving. Ctrl-C raises KeyboardInterrupt at the next iteration.
+    Raises ValueError naming the first value that is wrong, TypeError for arrays of another kind.
+    """
+    if isinstance(points, TetMesh):
+        if tets is not None:
+            raise TypeError("solve: a TetMesh comes without tets, it has its own")
+        mesh = points
+        if regions is not None or feature_edges is not None:
+            mesh = mesh._replaced(regions, feature_edges)
+    else:
+        mesh = TetMesh(points, tets, regions=regions, feature_edges=feature_edges)
+    return _solve(
+        mesh,
+        degree=degree,
+        method=method,
+        feature_angle=feature_angle,
+        follow_regions=follow_regions,
+        seed=seed,
+        threads=threads,
+        solver=solver,
+        max_iterations=max_iterations,
+        callback=callback,
+    )
+
+
+def solve_surface(
+    points: TriangleMesh | ArrayLike,
+    triangles: Optional[ArrayLike] = None,
+    *,
+    degree: int = 3,
+    method: str = "penalty",
+    feature_angle: float = 40.0,
+    boundary: str = "aligned",
+    seed: int = 0,
+    threads: int = 1,
+    solver: str = "fast",
+    max_iterations: Optional[int] = None,
+    feature_edges: Optional[ArrayLike] = None,
+    callback: Optional[Callback] = None,
+) -> SurfaceField:
+    """A cross field on a surface: frames with the surface's normal as one axis.
+
+    points: (n, 3) coordinates; or a TriangleMesh, as read_surface() gives it, without `triangles`.
+    triangles: (m, 3) indices of points, from 0; neighbours are expected to be oriented alike.
+    boundary: where the surface is open, its border: "aligned" or "free".
+
+    All else, and what it raises, is as in solve().
+    """
+    if isinstance(points, TriangleMesh):
+        if triangles is not None:
+            raise TypeError("solve_surface: a TriangleMesh comes without triangles, it has its own")
+        mesh = points
+        if feature_edges is not None:
+            mesh = TriangleMesh(
+                mesh.points, mesh.triangles, feature_edges=feature_edges, feature_points=mesh.feature_points
+            )
+    else:
+        mesh = TriangleMesh(points, triangles, feature_edges=feature_edges)
+    return _solve_surface(
+        mesh,
+        degree=degree,
+        method=method,
+        feature_angle=feature_angle,
+        boundary=boundary,
+        seed=seed,
+        threads=threads,
+        solver=solver,
+        max_iterations=max_iterations,
+        callback=callback,
+    )
