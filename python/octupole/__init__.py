@@ -11,7 +11,7 @@ field are views of its memory and read-only; .copy() them to change them.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Callable, Optional
+from typing import TYPE_CHECKING, Any, Callable, Iterable, Optional, Tuple
 
 from ._core import (
     Field,
@@ -24,6 +24,7 @@ from ._core import (
     TriangleMesh,
     __version__,
     _solve,
+    _solve_graph,
     _solve_surface,
     box_mesh,
     deviation,
@@ -64,6 +65,7 @@ __all__ = [
     "read_surface",
     "rotation_matrix",
     "solve",
+    "solve_graph",
     "solve_surface",
 ]
 
@@ -85,6 +87,9 @@ def solve(
     regions: Optional[ArrayLike] = None,
     follow_regions: Optional[bool] = None,
     feature_edges: Optional[ArrayLike] = None,
+    constraints: Optional[Iterable[Tuple[ArrayLike, ArrayLike]]] = None,
+    start: Optional[GraphField | ArrayLike] = None,
+    weights: str = "uniform",
     callback: Optional[Callback] = None,
 ) -> Field:
     """A frame field on a tet mesh, smooth inside and aligned with the boundary.
@@ -103,6 +108,11 @@ def solve(
     follow_regions: whether faces between regions, and tagged triangles inside, align the field as the boundary does; if
         None, where they make surfaces.
     feature_edges: (k, 2) pairs of points, edges that the field is to follow; no others are searched for then.
+    constraints: pairs (vertices, directions), what the field keeps to on top of the boundary: vertices (k,) and, with
+        them, either axes (k, 3) of any length or frames (k, 3, 3) with the axes as columns.
+    start: an earlier field, from which the solver starts: a Field, of this mesh or another one; or frames (n, 3, 3), or
+        coefficients (n, 7) or (n, 9).
+    weights: of the edges: "uniform", or "fem", which makes fields on meshes graded and even comparable.
     callback: called as callback(iteration, energy, seconds) after every iteration of the minimisation at work, often
         one on a coarser mesh. When it returns something true, the solver stops and the field reached so far is the
         result. What it raises stops the solver, too, and is raised by solve().
@@ -128,6 +138,9 @@ def solve(
         threads=threads,
         solver=solver,
         max_iterations=max_iterations,
+        constraints=constraints,
+        start=start,
+        weights=weights,
         callback=callback,
     )
 
@@ -145,6 +158,9 @@ def solve_surface(
     solver: str = "fast",
     max_iterations: Optional[int] = None,
     feature_edges: Optional[ArrayLike] = None,
+    constraints: Optional[Iterable[Tuple[ArrayLike, ArrayLike]]] = None,
+    start: Optional[GraphField | ArrayLike] = None,
+    weights: str = "uniform",
     callback: Optional[Callback] = None,
 ) -> SurfaceField:
     """A cross field on a surface: frames with the surface's normal as one axis.
@@ -175,5 +191,46 @@ def solve_surface(
         threads=threads,
         solver=solver,
         max_iterations=max_iterations,
+        constraints=constraints,
+        start=start,
+        weights=weights,
+        callback=callback,
+    )
+
+
+def solve_graph(
+    edges: ArrayLike,
+    weights: ArrayLike,
+    alignments: Iterable[Optional[ArrayLike]],
+    *,
+    degree: int = 3,
+    method: str = "penalty",
+    seed: int = 0,
+    threads: int = 1,
+    solver: str = "fast",
+    max_iterations: Optional[int] = None,
+    start: Optional[GraphField | ArrayLike] = None,
+    callback: Optional[Callback] = None,
+) -> GraphField:
+    """A frame field on any graph: a mesh type of your own, of any cells.
+
+    edges: (m, 2) pairs of vertices that are to have similar frames.
+    weights: (m,) of the edges, not negative, or one number for all.
+    alignments: for each vertex what its frame must keep to: None, an axis (3,) of any length, or a frame (3, 3) with the
+        axes as columns.
+
+    All else, and what it raises, is as in solve().
+    """
+    return _solve_graph(
+        edges,
+        weights,
+        alignments,
+        degree=degree,
+        method=method,
+        seed=seed,
+        threads=threads,
+        solver=solver,
+        max_iterations=max_iterations,
+        start=start,
         callback=callback,
     )

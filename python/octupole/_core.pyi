@@ -1,5 +1,5 @@
 from os import PathLike
-from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Iterable, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -126,6 +126,7 @@ class Field(GraphField):
     def quality(self) -> FieldQuality: ...
     def singular_curves(self) -> SingularCurves: ...
     def tet_frames(self) -> _Reals: ...
+    def sample(self, points: ArrayLike) -> Tuple[_Reals, NDArray[np.bool_]]: ...
     def write(self, path: _Path) -> None: ...
     def write_fra(self, path: _Path) -> None: ...
     def write_quaternions(self, path: _Path) -> None: ...
@@ -149,6 +150,9 @@ def _solve(
     threads: int,
     solver: str,
     max_iterations: Optional[int],
+    constraints: Optional[Iterable[Tuple[ArrayLike, ArrayLike]]],
+    start: Optional[Union[GraphField, ArrayLike]],
+    weights: str,
     callback: Optional[Callable[[int, float, float], Any]],
 ) -> Field: ...
 def _solve_surface(
@@ -162,8 +166,25 @@ def _solve_surface(
     threads: int,
     solver: str,
     max_iterations: Optional[int],
+    constraints: Optional[Iterable[Tuple[ArrayLike, ArrayLike]]],
+    start: Optional[Union[GraphField, ArrayLike]],
+    weights: str,
     callback: Optional[Callable[[int, float, float], Any]],
 ) -> SurfaceField: ...
+def _solve_graph(
+    edges: ArrayLike,
+    weights: ArrayLike,
+    alignments: Iterable[Optional[ArrayLike]],
+    *,
+    degree: int,
+    method: str,
+    seed: int,
+    threads: int,
+    solver: str,
+    max_iterations: Optional[int],
+    start: Optional[Union[GraphField, ArrayLike]],
+    callback: Optional[Callable[[int, float, float], Any]],
+) -> GraphField: ...
 def read(path: _Path) -> TetMesh: ...
 def read_surface(path: _Path) -> TriangleMesh: ...
 def box_mesh(cells: Sequence[int], size: Sequence[float] = ...) -> TetMesh: ...

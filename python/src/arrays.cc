@@ -74,6 +74,16 @@ std::vector<int> ValuesFrom(py::handle object, const std::string& name) {
   return values;
 }
 
+std::vector<Eigen::Vector3d> PointsFrom(py::handle object, const std::string& name) {
+  const Reals array = RealsFrom(object, name);
+  CheckShape(array, name, {3}, /*is_list=*/true);
+  std::vector<Eigen::Vector3d> points(array.shape(0));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i] = Eigen::Map<const Eigen::Vector3d>(array.data() + 3 * i);
+  }
+  return points;
+}
+
 std::vector<Eigen::Matrix3d> FramesFrom(py::handle object, const std::string& name) {
   const Reals array = RealsFrom(object, name);
   CheckShape(array, name, {3, 3}, /*is_list=*/true);

@@ -33,6 +33,13 @@ struct ElementLayout<double> {
   static std::vector<py::ssize_t> strides() { return {}; }
 };
 
+template <>
+struct ElementLayout<std::uint8_t> {
+  using Scalar = bool;
+  static std::vector<py::ssize_t> shape() { return {}; }
+  static std::vector<py::ssize_t> strides() { return {}; }
+};
+
 template <std::size_t kCount>
 struct ElementLayout<std::array<int, kCount>> {
   using Scalar = std::int32_t;
@@ -113,6 +120,9 @@ std::vector<std::array<int, kCount>> RowsFrom(py::handle object, const std::stri
 
 /// The values of an array of shape (n,). Errors likewise.
 std::vector<int> ValuesFrom(py::handle object, const std::string& name);
+
+/// The points of an array of shape (n, 3). Errors likewise.
+std::vector<Eigen::Vector3d> PointsFrom(py::handle object, const std::string& name);
 
 /// The matrices of an array of shape (n, 3, 3). Errors likewise.
 std::vector<Eigen::Matrix3d> FramesFrom(py::handle object, const std::string& name);

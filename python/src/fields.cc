@@ -14,8 +14,10 @@
 
 #include "arrays.h"
 #include "bindings.h"
+#include "octupole/field/constraints.h"
 #include "octupole/field/cross_field.h"
 #include "octupole/field/field_quality.h"
+#include "octupole/field/field_sampler.h"
 #include "octupole/field/tet_frames.h"
 #include "octupole/io/cross_field_writer.h"
 #include "octupole/io/field_writer.h"
@@ -46,6 +48,8 @@ struct AnyField {
 
 struct TetField : AnyField {
   std::shared_ptr<const TetMesh> mesh;
+  /// Made when it is first asked for.
+  std::shared_ptr<const FieldSampler> sampler;
 };
 
 struct SurfaceField : AnyField {
@@ -59,11 +63,78 @@ struct SolveArguments {
   std::string boundary;
   /// Whether surfaces inside the mesh align the field; if nothing is said, the library decides.
   std::optional<bool> follow_regions;
+  std::string weights;
   std::uint32_t seed;
   int threads;
   std::string solver;
   std::optional<int> max_iterations;
+  std::vector<Constraint> constraints;
+  /// None, a TetField, or an array of frames or of coefficients.
+  py::object start;
 };
+
+// An axis (3,) or a frame (3, 3), at an index for messages.
+Alignment AlignmentFrom(const Reals& value, const std::string& name, py::ssize_t index) {
+  try {
+    if (value.ndim() == 1 && value.shape(0) == 3) {
+      return Alignment::Axis(Eigen::Map<const Eigen::Vector3d>(value.data()));
+    }
+    if (value.ndim() == 2 && value.shape(0) == 3 && value.shape(1) == 3) {
+      return Alignment::Frame(Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(value.data()));
+    }
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(name + ": element " + std::to_string(index) + ": " + error.what());
+  }
+  throw std::invalid_argument(name + ": the shape of element " + std::to_string(index) + " is " + ShapeOf(value) +
+                              ", not (3,) or (3, 3)");
+}
+
+// Pairs of vertices (k,) and axes (k, 3) or frames (k, 3, 3).
+std::vector<Constraint> ConstraintsFrom(const py::object& object) {
+  std::vector<Constraint> constraints;
+  if (object.is_none()) return constraints;
+  for (const py::handle pair : object) {
+    if (py::len(pair) != 2) throw std::invalid_argument("constraints: pairs of vertices and directions expected");
+    const auto parts = py::reinterpret_borrow<py::object>(pair);
+    const std::vector<int> vertices = ValuesFrom(parts[py::int_(0)], "constraints");
+    const Reals directions = RealsFrom(parts[py::int_(1)], "constraints");
+    if (directions.ndim() == 0 || static_cast<std::size_t>(directions.shape(0)) != vertices.size()) {
+      throw std::invalid_argument("constraints: directions of shape " + ShapeOf(directions) + " for " +
+                                  std::to_string(vertices.size()) + " vertices");
+    }
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      const auto index = static_cast<py::ssize_t>(i);
+      constraints.push_back(
+          {vertices[i], AlignmentFrom(RealsFrom(directions[py::int_(i)], "constraints"), "constraints", index)});
+    }
+  }
+  return constraints;
+}
+
+// The start of a solve on these points: the frames of a field, on whichever mesh, or the caller's array.
+template <int kDegree>
+void SetStart(const py::object& start, const std::vector<Eigen::Vector3d>* points, FieldOptions<kDegree>* options) {
+  if (start.is_none()) return;
+  if (points != nullptr && py::isinstance<TetField>(start)) {
+    const auto& field = start.cast<const TetField&>();
+    options->start_frames = Unlocked([&] { return TransferFrames(*field.mesh, field.solution().frames, *points); });
+    return;
+  }
+  const Reals array = RealsFrom(py::isinstance<AnyField>(start) ? start.attr("frames") : start, "start");
+  if (array.ndim() == 3) {
+    options->start_frames = FramesFrom(array, "start");
+    return;
+  }
+  CheckShape(array, "start", {kDimension<kDegree>}, /*is_list=*/true);
+  options->start.resize(array.shape(0));
+  for (std::size_t v = 0; v < options->start.size(); ++v) {
+    options->start[v] = Eigen::Map<const Harmonic<kDegree>>(array.data() + v * kDimension<kDegree>);
+  }
+}
+
+const std::vector<Eigen::Vector3d>* PointsOf(const TetMesh& mesh) { return &mesh.points; }
+const std::vector<Eigen::Vector3d>* PointsOf(const TriangleMesh& mesh) { return &mesh.points; }
+const std::vector<Eigen::Vector3d>* PointsOf(const FieldGraph& /*graph*/) { return nullptr; }
 
 template <int kDegree>
 FieldOptions<kDegree> OptionsFrom(const SolveArguments& arguments, Progress* progress) {
@@ -74,6 +145,8 @@ FieldOptions<kDegree> OptionsFrom(const SolveArguments& arguments, Progress* pro
   if (arguments.follow_regions) {
     options.regions = *arguments.follow_regions ? RegionUse::kFollow : RegionUse::kIgnore;
   }
+  options.edge_weights = EdgeWeightsOf(arguments.weights);
+  options.constraints = arguments.constraints;
   options.seed = arguments.seed;
   options.minimizer.num_threads = arguments.threads;
   if (arguments.max_iterations) options.minimizer.max_iterations = *arguments.max_iterations;
@@ -89,7 +162,8 @@ FieldOptions<kDegree> OptionsFrom(const SolveArguments& arguments, Progress* pro
 
 template <int kDegree, typename Mesh>
 Field<kDegree> SolveUnlocked(const Mesh& mesh, const SolveArguments& arguments, Progress* progress) {
-  const FieldOptions<kDegree> options = OptionsFrom<kDegree>(arguments, progress);
+  FieldOptions<kDegree> options = OptionsFrom<kDegree>(arguments, progress);
+  SetStart<kDegree>(arguments.start, PointsOf(mesh), &options);
   Field<kDegree> field = Unlocked([&] { return SolveField<kDegree>(mesh, options); });
   progress->ThrowError();
   if (!field.IsUsable()) {
@@ -99,19 +173,33 @@ Field<kDegree> SolveUnlocked(const Mesh& mesh, const SolveArguments& arguments, 
   return field;
 }
 
-template <typename Result, typename Mesh>
-Result Solve(const std::shared_ptr<Mesh>& mesh, const SolveArguments& arguments, const py::object& callback) {
+template <typename Mesh>
+std::variant<Field<3>, Field<4>> Solve(const Mesh& mesh, const SolveArguments& arguments, const py::object& callback) {
   Progress progress(callback);
-  Result result;
-  result.mesh = mesh;
-  if (arguments.degree == 3) {
-    result.field = SolveUnlocked<3>(*mesh, arguments, &progress);
-  } else if (arguments.degree == 4) {
-    result.field = SolveUnlocked<4>(*mesh, arguments, &progress);
-  } else {
-    throw std::invalid_argument("degree: 3 or 4 expected, not " + std::to_string(arguments.degree));
+  if (arguments.degree == 3) return SolveUnlocked<3>(mesh, arguments, &progress);
+  if (arguments.degree == 4) return SolveUnlocked<4>(mesh, arguments, &progress);
+  throw std::invalid_argument("degree: 3 or 4 expected, not " + std::to_string(arguments.degree));
+}
+
+// Edges (m, 2), weights (m,) or one for all, and for each vertex None, an axis or a frame.
+FieldGraph GraphFrom(const py::object& edges, const py::object& weights, const py::object& alignments) {
+  FieldGraph graph;
+  py::ssize_t v = 0;
+  for (const py::handle alignment : alignments) {
+    graph.alignments.push_back(
+        alignment.is_none() ? Alignment() : AlignmentFrom(RealsFrom(alignment, "alignments"), "alignments", v));
+    ++v;
   }
-  return result;
+  const auto ends = RowsFrom<2>(edges, "edges");
+  const Reals values = RealsFrom(weights, "weights");
+  if (values.ndim() != 0 && (values.ndim() != 1 || static_cast<std::size_t>(values.size()) != ends.size())) {
+    throw std::invalid_argument("weights: the shape is " + ShapeOf(values) + " for " + std::to_string(ends.size()) +
+                                " edges");
+  }
+  for (std::size_t e = 0; e < ends.size(); ++e) {
+    graph.edges.push_back({ends[e][0], ends[e][1], values.data()[values.ndim() == 0 ? 0 : e]});
+  }
+  return graph;
 }
 
 // The degree of a field.
@@ -145,6 +233,17 @@ SingularCurves CurvesOf(const TetField& field) {
 template <int kDegree>
 void WriteFieldOf(const std::filesystem::path& path, const TetMesh& mesh, const Field<kDegree>& field) {
   WriteField<kDegree>(path, mesh, field.coefficients, field.frames, field.alignment.alignments);
+}
+
+py::tuple Sample(TetField& field, const py::object& points) {
+  const std::vector<Eigen::Vector3d> where = PointsFrom(points, "points");
+  if (!field.sampler) {
+    field.sampler =
+        Unlocked([&] { return std::make_shared<const FieldSampler>(*field.mesh, field.solution().frames); });
+  }
+  const std::shared_ptr<const FieldSampler> sampler = field.sampler;
+  FieldSamples samples = Unlocked([&] { return sampler->Sample(where); });
+  return py::make_tuple(ArrayOf(std::move(samples.frames)), ArrayOf(std::move(samples.is_inside)));
 }
 
 void Write(const TetField& field, const std::filesystem::path& path) {
@@ -329,6 +428,13 @@ Its SingularCurves: curves with type, valence, length and ends, and the nodes wh
 --
 
 (m, 3, 3) float64: one frame per tet, the mean of those of its corners.)")
+      .def("sample", &Sample, py::arg("points"), R"(sample(self, points)
+--
+
+The field anywhere. Returns frames (k, 3, 3) float64, and (k,) bool: whether a tet contains the point. Outside it is the
+frame of the nearest point of the boundary.
+
+points: (k, 3) coordinates; fastest where each is near the one before.)")
       .def("write", &Write, py::arg("path"), R"(write(self, path)
 --
 
@@ -391,26 +497,57 @@ void AddFields(py::module_* module) {
   module->def(
       "_solve",
       [](const std::shared_ptr<TetMesh>& mesh, int degree, const std::string& method, double feature_angle,
-         std::optional<bool> follow_regions, std::uint32_t seed, int threads, const std::string& solver,
-         std::optional<int> max_iterations, const py::object& callback) {
-        return Solve<TetField>(
-            mesh, {degree, method, feature_angle, "aligned", follow_regions, seed, threads, solver, max_iterations},
-            callback);
+         std::optional<bool> follow_regions, const std::string& weights, std::uint32_t seed, int threads,
+         const std::string& solver, std::optional<int> max_iterations, const py::object& constraints,
+         const py::object& start, const py::object& callback) {
+        return TetField{{Solve(*mesh,
+                               {degree, method, feature_angle, "aligned", follow_regions, weights, seed, threads,
+                                solver, max_iterations, ConstraintsFrom(constraints), start},
+                               callback)},
+                        mesh,
+                        nullptr};
       },
       py::arg("mesh"), py::kw_only(), py::arg("degree"), py::arg("method"), py::arg("feature_angle"),
-      py::arg("follow_regions"), py::arg("seed"), py::arg("threads"), py::arg("solver"), py::arg("max_iterations"),
-      py::arg("callback"));
+      py::arg("follow_regions"), py::arg("weights"), py::arg("seed"), py::arg("threads"), py::arg("solver"),
+      py::arg("max_iterations"), py::arg("constraints"), py::arg("start"), py::arg("callback"));
   module->def(
       "_solve_surface",
       [](const std::shared_ptr<SurfaceMesh>& mesh, int degree, const std::string& method, double feature_angle,
-         const std::string& boundary, std::uint32_t seed, int threads, const std::string& solver,
-         std::optional<int> max_iterations, const py::object& callback) {
-        return Solve<SurfaceField>(
-            mesh, {degree, method, feature_angle, boundary, std::nullopt, seed, threads, solver, max_iterations},
-            callback);
+         const std::string& boundary, const std::string& weights, std::uint32_t seed, int threads,
+         const std::string& solver, std::optional<int> max_iterations, const py::object& constraints,
+         const py::object& start, const py::object& callback) {
+        return SurfaceField{{Solve<TriangleMesh>(*mesh,
+                                                 {degree, method, feature_angle, boundary, std::nullopt, weights, seed,
+                                                  threads, solver, max_iterations, ConstraintsFrom(constraints), start},
+                                                 callback)},
+                            mesh};
       },
       py::arg("mesh"), py::kw_only(), py::arg("degree"), py::arg("method"), py::arg("feature_angle"),
-      py::arg("boundary"), py::arg("seed"), py::arg("threads"), py::arg("solver"), py::arg("max_iterations"),
+      py::arg("boundary"), py::arg("weights"), py::arg("seed"), py::arg("threads"), py::arg("solver"),
+      py::arg("max_iterations"), py::arg("constraints"), py::arg("start"), py::arg("callback"));
+  module->def(
+      "_solve_graph",
+      [](const py::object& edges, const py::object& weights, const py::object& alignments, int degree,
+         const std::string& method, std::uint32_t seed, int threads, const std::string& solver,
+         std::optional<int> max_iterations, const py::object& start, const py::object& callback) {
+        const double unused_angle = FieldOptions<3>().feature_angle_deg;
+        return AnyField{Solve(GraphFrom(edges, weights, alignments),
+                              {degree,
+                               method,
+                               unused_angle,
+                               "aligned",
+                               std::nullopt,
+                               "uniform",
+                               seed,
+                               threads,
+                               solver,
+                               max_iterations,
+                               {},
+                               start},
+                              callback)};
+      },
+      py::arg("edges"), py::arg("weights"), py::arg("alignments"), py::kw_only(), py::arg("degree"), py::arg("method"),
+      py::arg("seed"), py::arg("threads"), py::arg("solver"), py::arg("max_iterations"), py::arg("start"),
       py::arg("callback"));
 }
 

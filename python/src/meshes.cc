@@ -69,13 +69,8 @@ std::shared_ptr<TetMesh> Replaced(const TetMesh& mesh, const py::object& regions
 
 std::shared_ptr<SurfaceMesh> MakeTriangleMesh(const py::object& points, const py::object& triangles,
                                               const py::object& feature_edges, const py::object& feature_points) {
-  const Reals coordinates = RealsFrom(points, "points");
-  CheckShape(coordinates, "points", {3}, /*is_list=*/true);
   auto mesh = std::make_shared<SurfaceMesh>();
-  mesh->points.resize(coordinates.shape(0));
-  for (std::size_t v = 0; v < mesh->points.size(); ++v) {
-    mesh->points[v] = Eigen::Map<const Eigen::Vector3d>(coordinates.data() + 3 * v);
-  }
+  mesh->points = PointsFrom(points, "points");
   mesh->triangles = RowsFrom<3>(triangles, "triangles");
   SetFeatures(feature_edges, feature_points, mesh.get());
   CheckTriangleMesh(*mesh);

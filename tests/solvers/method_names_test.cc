@@ -20,6 +20,7 @@ TEST(MethodNames, LeadThereAndBack) {
   EXPECT_EQ(SolverPresetOf("cgnr"), SolverPreset::kConjugateGradients);
   EXPECT_EQ(SolverPresetOf("fast"), std::nullopt);
   EXPECT_EQ(OpenBoundaryOf("free"), OpenBoundary::kFree);
+  EXPECT_EQ(EdgeWeightsOf("fem"), EdgeWeights::kFiniteElement);
 }
 
 TEST(MethodNames, UnknownOnesSayWhichThereAre) {

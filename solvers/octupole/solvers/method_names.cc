@@ -16,6 +16,8 @@ const std::map<std::string, std::optional<SolverPreset>> kSolvers = {{"fast", st
                                                                      {"lbfgs", SolverPreset::kLbfgs}};
 const std::map<std::string, OpenBoundary> kBoundaries = {{"aligned", OpenBoundary::kAligned},
                                                          {"free", OpenBoundary::kFree}};
+const std::map<std::string, EdgeWeights> kEdgeWeights = {{"uniform", EdgeWeights::kUniform},
+                                                         {"fem", EdgeWeights::kFiniteElement}};
 
 template <typename Value>
 Value ValueOf(const char* what, const std::map<std::string, Value>& values, const std::string& name) {
@@ -40,5 +42,7 @@ std::string NameOf(FieldMethod method) {
 std::optional<SolverPreset> SolverPresetOf(const std::string& name) { return ValueOf("solver", kSolvers, name); }
 
 OpenBoundary OpenBoundaryOf(const std::string& name) { return ValueOf("boundary", kBoundaries, name); }
+
+EdgeWeights EdgeWeightsOf(const std::string& name) { return ValueOf("weights", kEdgeWeights, name); }
 
 }  // namespace octupole

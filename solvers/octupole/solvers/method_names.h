@@ -4,6 +4,7 @@
 #include <string>
 
 #include "octupole/field/boundary_alignment.h"
+#include "octupole/field/field_graph.h"
 #include "octupole/solvers/field_solver.h"
 #include "octupole/solvers/solver_presets.h"
 
@@ -21,5 +22,8 @@ std::optional<SolverPreset> SolverPresetOf(const std::string& name);
 
 /// "aligned" or "free".
 OpenBoundary OpenBoundaryOf(const std::string& name);
+
+/// "uniform" or "fem".
+EdgeWeights EdgeWeightsOf(const std::string& name);
 
 }  // namespace octupole
