@@ -15,6 +15,7 @@
 #include "compare_command.h"
 #include "field_command.h"
 #include "info_command.h"
+#include "map_command.h"
 #include "octupole/version.h"
 #ifdef OCTUPOLE_WITH_OPENMESH
 #include <OpenMesh/Core/System/config.h>
@@ -60,6 +61,7 @@ void Run(int argc, char** argv, CLI::App* app) {
   AddFieldCommand(app);
   AddInfoCommand(app);
   AddCompareCommand(app);
+  AddMapCommand(app);
 #ifdef OCTUPOLE_WITH_OPENMESH
   AddSurfaceCommand(app);
 #endif

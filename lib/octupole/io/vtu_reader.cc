@@ -1,5 +1,6 @@
 #include <zlib.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -10,6 +11,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "octupole/io/field_reader.h"
 #include "octupole/io/internal/mesh_readers.h"
 #include "octupole/io/internal/number_bytes.h"
 #include "octupole/io/internal/vtk_cells.h"
@@ -142,14 +144,7 @@ class VtuReader {
 
   ParsedMesh Read() {
     pugi::xml_document document;
-    const pugi::xml_parse_result parsed =
-        document.load_buffer_inplace(xml_.data(), xml_.size(), pugi::parse_minimal, pugi::encoding_utf8);
-    if (!parsed) {
-      Fail(LineAt(xml_.data() + parsed.offset), std::string("this is no XML: ") + parsed.description());
-    }
-    const pugi::xml_node root = Child(document, "VTKFile");
-    ReadHeader(root);
-    for (const pugi::xml_node& piece : Child(root, "UnstructuredGrid").children("Piece")) {
+    for (const pugi::xml_node& piece : Load(&document).children("Piece")) {
       ReadPiece(piece);
     }
     if (result_.mesh.regions.size() != result_.mesh.tets.size()) {
@@ -158,7 +153,44 @@ class VtuReader {
     return std::move(result_);
   }
 
+  std::vector<Eigen::Matrix3d> ReadFrames(std::int64_t num_points) {
+    pugi::xml_document document;
+    const pugi::xml_node piece = Child(Load(&document), "Piece");
+    const std::int64_t count = NextAttribute(piece, "NumberOfPoints", std::numeric_limits<int>::max());
+    if (count != num_points) {
+      Fail(piece, "frames of " + std::to_string(count) + " points, but the mesh has " + std::to_string(num_points));
+    }
+    const pugi::xml_node point_data = Child(piece, "PointData");
+    std::vector<Eigen::Matrix3d> frames(count);
+    for (int axis = 0; axis < 3; ++axis) {
+      constexpr const char* kNames[] = {"frame_x", "frame_y", "frame_z"};
+      std::int64_t i = 0;
+      ReadNumbers(ArrayOfName(point_data, kNames[axis]), 3 * count, [&](auto x) {
+        frames[i / 3](i % 3, axis) = static_cast<double>(x);
+        ++i;
+      });
+    }
+    for (std::size_t v = 0; v < frames.size(); ++v) {
+      const double error = (frames[v].transpose() * frames[v] - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+      if (error < 1e-6 && frames[v].determinant() > 0) continue;
+      Fail(point_data, "the axes of point " + std::to_string(v) + " are not orthonormal and right-handed");
+    }
+    return frames;
+  }
+
  private:
+  /// The element UnstructuredGrid.
+  pugi::xml_node Load(pugi::xml_document* document) {
+    const pugi::xml_parse_result parsed =
+        document->load_buffer_inplace(xml_.data(), xml_.size(), pugi::parse_minimal, pugi::encoding_utf8);
+    if (!parsed) {
+      Fail(LineAt(xml_.data() + parsed.offset), std::string("this is no XML: ") + parsed.description());
+    }
+    const pugi::xml_node root = Child(*document, "VTKFile");
+    ReadHeader(root);
+    return Child(root, "UnstructuredGrid");
+  }
+
   [[noreturn]] void Fail(int line, const std::string& message) const {
     throw std::runtime_error(path_ + ":" + std::to_string(line) + ": " + message);
   }
@@ -421,3 +453,12 @@ class VtuReader {
 ParsedMesh ReadVtu(const NamedText& file) { return VtuReader(file).Read(); }
 
 }  // namespace octupole::internal
+
+namespace octupole {
+
+std::vector<Eigen::Matrix3d> ReadFrames(const std::filesystem::path& path, std::size_t num_points) {
+  const internal::FileContent content(path);
+  return internal::VtuReader({path.string(), content.text()}).ReadFrames(static_cast<std::int64_t>(num_points));
+}
+
+}  // namespace octupole

@@ -38,9 +38,6 @@ void Check(const MapOptions& options) {
   };
   if (!(options.size >= 0 && std::isfinite(options.size))) fail("the size", options.size);
   if (options.max_iterations < 0) fail("max_iterations", options.max_iterations);
-  if (options.integer && !options.start.empty()) {
-    throw std::invalid_argument("SolveSeamlessMap: an integer-grid map takes no start");
-  }
 }
 
 // A volume that is no more than this part of what it should be counts as none.

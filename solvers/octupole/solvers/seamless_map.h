@@ -4,16 +4,13 @@
 #include <ceres/types.h>
 
 #include <Eigen/Core>
-#include <array>
 #include <vector>
 
 #include "octupole/maps/map_domain.h"
+#include "octupole/maps/map_quality.h"
 #include "octupole/mesh/tet_mesh.h"
 
 namespace octupole {
-
-/// Three parameters for each corner of each tetrahedron.
-using CornerParameters = std::vector<std::array<Eigen::Vector3d, 4>>;
 
 struct MapOptions {
   /// H: the length that one unit of a parameter stands for, so that of the hexahedra's edges. By default, where it is
@@ -27,9 +24,6 @@ struct MapOptions {
   /// Called after every iteration; of the summary, `iteration`, `cost`, `cost_change`, `gradient_max_norm` and
   /// `cumulative_time_in_seconds` are set. The cost is the foldover-free energy.
   ceres::IterationCallback* callback = nullptr;
-  /// If given, the parameters of an earlier map of the same mesh and frames: the map begins with the nearest that is
-  /// seamless, in the place of the linear solution. Not with `integer`.
-  CornerParameters start;
 };
 
 struct SeamlessMap {
@@ -61,7 +55,7 @@ struct SeamlessMap {
 ///     over; each step by conjugate gradients, no matrix is assembled.
 ///
 /// \param frames one rotation per point.
-/// \throw std::invalid_argument as MakeMapDomain does; when an option is out of range; or `start` has another size.
+/// \throw std::invalid_argument as MakeMapDomain does; when an option is out of range.
 SeamlessMap SolveSeamlessMap(const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& frames,
                              const MapOptions& options = {});
 
