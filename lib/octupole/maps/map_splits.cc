@@ -222,7 +222,7 @@ class Straightener {
   }
 
   bool Run() {
-    bool has_changed = false;
+    bool has_changed = ResolveTurns();
     while (!open_.empty()) {
       const int v = *open_.begin();
       open_.erase(open_.begin());
@@ -261,6 +261,43 @@ class Straightener {
     return false;
   }
 
+  // Gives every edge of another turn than a quarter turn, where that can be, a quarter turn or none, at the cost of
+  // quarter turns of the other two sides of a triangle at it.
+  bool ResolveTurns() {
+    std::set<std::size_t> others;
+    for (const auto& [v, rings] : rings_of_) {
+      for (const std::size_t r : rings) {
+        if (!IsQuarterOrNone(r)) others.insert(r);
+      }
+    }
+    bool has_changed = false;
+    for (const std::size_t r : others) has_changed = (!IsQuarterOrNone(r) && ResolveTurn(r)) || has_changed;
+    return has_changed;
+  }
+
+  bool ResolveTurn(std::size_t r) {
+    const auto [a, b] = rings_.vertices[r];
+    for (std::size_t i = rings_.begin[r]; i < rings_.begin[r + 1]; ++i) {
+      const EdgeRings::Step& step = rings_.steps[i];
+      const int c = framed_.mesh.tets[step.tet][step.in];
+      const auto second = FindInnerRing(a, c), third = FindInnerRing(b, c);
+      if (!second || !third) continue;
+      const std::array<std::size_t, 3> sides = {r, *second, *third};
+      const OctahedralRotation before = framed_.matched.match(step.tet, step.out);
+      for (const OctahedralRotation& g : OctahedralGroup()) {
+        framed_.matched.SetMatch(framed_.mesh, step.tet, step.out, before * g);
+        if (!std::all_of(sides.begin(), sides.end(), [&](std::size_t side) { return IsQuarterOrNone(side); })) continue;
+        for (const std::size_t side : sides) {
+          Remove(side);
+          if (IsSingular(side)) Add(side);
+        }
+        return true;
+      }
+      framed_.matched.SetMatch(framed_.mesh, step.tet, step.out, before);
+    }
+    return false;
+  }
+
   int OtherEnd(std::size_t ring, int v) const {
     const auto [a, b] = rings_.vertices[ring];
     return a == v ? b : a;
@@ -288,7 +325,9 @@ class Straightener {
     const bool was_singular = IsSingular(*third);
     framed_.matched.SetMatch(framed_.mesh, step.tet, step.out, rest.Inverse());
     const bool is_singular = IsSingular(*third);
-    if (IsSingular(second)) {
+    // Two quarter turns must not become one that is none.
+    const bool is_worse = is_singular && !IsQuarterOrNone(*third);
+    if (IsSingular(second) || is_worse) {
       framed_.matched.SetMatch(framed_.mesh, step.tet, step.out, before);
       return false;
     }
@@ -304,6 +343,11 @@ class Straightener {
   }
 
   bool IsSingular(std::size_t ring) const { return TurnAround(framed_.matched, rings_, ring) != OctahedralRotation(); }
+
+  bool IsQuarterOrNone(std::size_t ring) const {
+    const TurnType type = TypeOf(TurnAround(framed_.matched, rings_, ring));
+    return type == TurnType::kNone || type == TurnType::kQuarter;
+  }
 
   const EdgeRings& rings_;
   FramedMesh& framed_;

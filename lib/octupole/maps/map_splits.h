@@ -21,8 +21,9 @@ struct FramedMesh {
   std::vector<int> parents;
 };
 
-/// Straightens the singular edges: where two of them are sides of a triangle and its match can be changed so that less
-/// than two of its sides are singular, it is. A singular curve so gets a shortcut, and no turn of the whole is lost.
+/// Straightens the singular edges by changing matches, one face at a time, so that no turn of the whole is lost:
+///  - an edge of another turn than a quarter turn becomes three edges of quarter turns, the sides of a triangle;
+///  - where two singular edges are sides of a triangle and its third can take their place, it does: a shortcut.
 /// \param singular_edges of the mesh; not up to date any more if something was changed, which is what is returned.
 bool StraightenSingularEdges(const EdgeRings& rings, const std::vector<SingularEdge>& singular_edges,
                              FramedMesh* framed);

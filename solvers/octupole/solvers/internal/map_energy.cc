@@ -48,6 +48,9 @@ MapEnergy::MapEnergy(const TetMesh& mesh, const CombedFrames& combed, const MapC
     volume += tet.weight;
     tet.gradients = size * edges.inverse();  // row i is the gradient of corner i + 1
     tet.frame = combed.frames[t].transpose();
+    tet.jacobian.setZero();
+    tet.cofactors.setZero();
+    tet.direct = tet.mixed = tet.cofactor = 0;
     tets_.push_back(tet);
     numbers_.push_back(t);
   }
