@@ -15,6 +15,7 @@
 #include "compare_command.h"
 #include "field_command.h"
 #include "info_command.h"
+#include "map_command.h"
 #include "octupole/version.h"
 #include "sample_command.h"
 #ifdef OCTUPOLE_WITH_OPENMESH
@@ -63,6 +64,7 @@ void Run(int argc, char** argv, CLI::App* app) {
   AddInfoCommand(app);
   AddCompareCommand(app);
   AddSampleCommand(app);
+  AddMapCommand(app);
 #ifdef OCTUPOLE_WITH_OPENMESH
   AddSurfaceCommand(app);
 #endif

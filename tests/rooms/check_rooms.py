@@ -24,11 +24,12 @@ ROOMS = {
     "mesh": [],
     "singularities": SHAPES,
     "field": ["singularities"] + SHAPES,
-    "io": ["field", "singularities"] + SHAPES,
+    "maps": ["field", "singularities"] + SHAPES,
+    "io": ["maps", "field", "singularities"] + SHAPES,
     "view": ["io", "field", "singularities"] + SHAPES,
     "adaptors": ["io", "field", "singularities"] + SHAPES,
-    "cost_functions": ["field"] + MATHEMATICS,
-    "solvers": ["cost_functions", "field", "singularities"] + SHAPES,
+    "cost_functions": ["maps", "field", "frames"] + MATHEMATICS,
+    "solvers": ["cost_functions", "maps", "field", "singularities"] + SHAPES,
 }
 
 # Library -> the rooms that may include it; all others are free to use Eigen and the standard library only.

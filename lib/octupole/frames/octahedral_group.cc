@@ -58,6 +58,11 @@ const std::array<OctahedralRotation, 24>& OctahedralGroup() {
   return group;
 }
 
+int IndexOf(const OctahedralRotation& g) {
+  const auto& group = OctahedralGroup();
+  return static_cast<int>(std::find(group.begin(), group.end(), g) - group.begin());
+}
+
 OctahedralRotation MatchFrames(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
   const Eigen::Matrix3d q = a.transpose() * b;
   // For each order of the axes the best signs are those of the entries, but for the smallest entry's when they would

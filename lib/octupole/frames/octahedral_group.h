@@ -25,6 +25,9 @@ struct OctahedralRotation {
 /// All 24 rotations of the cube, the identity first.
 const std::array<OctahedralRotation, 24>& OctahedralGroup();
 
+/// The place of `g` in OctahedralGroup().
+int IndexOf(const OctahedralRotation& g);
+
 /// The g in S4 for which a g is closest to b: the largest trace of (a g)^T b (theory.md, section 6).
 OctahedralRotation MatchFrames(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b);
 

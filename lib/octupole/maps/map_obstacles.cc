@@ -1,0 +1,181 @@
+#include "octupole/maps/map_obstacles.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <map>
+#include <sstream>
+#include <utility>
+
+#include "octupole/maps/internal/union_find.h"
+
+namespace octupole {
+namespace {
+
+using Edge = std::array<int, 2>;
+
+double LengthOf(const TetMesh& mesh, const Edge& edge) { return (mesh.points[edge[0]] - mesh.points[edge[1]]).norm(); }
+
+// The cells that share vertices, as one obstacle each.
+template <std::size_t N, typename Add>
+std::vector<MapObstacle> Group(const TetMesh& mesh, ObstacleKind kind, const std::vector<std::array<int, N>>& cells,
+                               const Add& add) {
+  internal::UnionFind parts(static_cast<int>(mesh.points.size()));
+  for (const auto& cell : cells) {
+    for (const int v : cell) parts.Unite(cell[0], v);
+  }
+  std::map<int, std::size_t> number;
+  std::vector<MapObstacle> obstacles;
+  std::vector<Eigen::Vector3d> low, high;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const Eigen::Vector3d& first = mesh.points[cells[i][0]];
+    const auto [place, is_new] = number.emplace(parts.Root(cells[i][0]), obstacles.size());
+    if (is_new) {
+      obstacles.push_back({kind, {}, {}, first});
+      low.push_back(first);
+      high.push_back(first);
+    }
+    const std::size_t k = place->second;
+    for (const int v : cells[i]) {
+      low[k] = low[k].cwiseMin(mesh.points[v]);
+      high[k] = high[k].cwiseMax(mesh.points[v]);
+    }
+    add(i, &obstacles[k]);
+  }
+  for (std::size_t k = 0; k < obstacles.size(); ++k) {
+    obstacles[k].place = (low[k] + high[k]) / 2;
+    if (obstacles[k].size == 0) obstacles[k].size = (high[k] - low[k]).norm();
+  }
+  std::stable_sort(obstacles.begin(), obstacles.end(),
+                   [](const MapObstacle& a, const MapObstacle& b) { return a.size > b.size; });
+  return obstacles;
+}
+
+std::vector<MapObstacle> GroupEdges(const TetMesh& mesh, ObstacleKind kind, const std::vector<Edge>& edges) {
+  return Group(mesh, kind, edges, [&](std::size_t i, MapObstacle* obstacle) {
+    obstacle->edges.push_back(edges[i]);
+    obstacle->size += LengthOf(mesh, edges[i]);
+  });
+}
+
+std::vector<MapObstacle> GroupTets(const TetMesh& mesh, ObstacleKind kind, const std::vector<int>& tets) {
+  std::vector<std::array<int, 4>> cells;
+  for (const int t : tets) cells.push_back(mesh.tets[t]);
+  return Group(mesh, kind, cells, [&](std::size_t i, MapObstacle* obstacle) { obstacle->tets.push_back(tets[i]); });
+}
+
+std::vector<MapObstacle> FindValenceChanges(const MapDomain& domain) {
+  std::map<int, std::vector<const SingularEdge*>> edges_of;
+  for (const SingularEdge& edge : domain.singular_edges) {
+    for (const int v : edge.vertices) edges_of[v].push_back(&edge);
+  }
+  std::vector<MapObstacle> obstacles;
+  for (const auto& [v, edges] : edges_of) {
+    if (edges.size() != 2 || edges[0]->valence + edges[1]->valence != 8) continue;
+    if (edges[0]->valence == edges[1]->valence) continue;
+    MapObstacle obstacle = {ObstacleKind::kValenceChange, {}, {}, domain.mesh.points[v]};
+    for (const SingularEdge* edge : edges) {
+      obstacle.edges.push_back(edge->vertices);
+      obstacle.size += LengthOf(domain.mesh, edge->vertices);
+    }
+    obstacles.push_back(std::move(obstacle));
+  }
+  return obstacles;
+}
+
+std::vector<MapObstacle> FindThinParts(const MapDomain& domain) {
+  std::vector<Eigen::Vector3d> outward(domain.mesh.points.size(), Eigen::Vector3d::Zero());
+  for (const BoundarySheets::Face& face : domain.sheets.faces) {
+    for (int k = 0; k < 4; ++k) {
+      if (k == face.corner) continue;
+      outward[domain.mesh.tets[face.tet][k]] += face.sign * domain.combed.frames[face.tet].col(face.axis);
+    }
+  }
+  std::vector<Edge> edges;
+  for (std::size_t r = 0; r < domain.rings.size(); ++r) {
+    const auto [a, b] = domain.rings.vertices[r];
+    // Normals of opposite sides, and an edge that leads from one to the other.
+    constexpr double kOpposite = -0.5;
+    if (!domain.rings.is_closed[r] || outward[a].isZero() || outward[b].isZero()) continue;
+    const Eigen::Vector3d n = outward[a].normalized(), m = outward[b].normalized();
+    const Eigen::Vector3d along = (domain.mesh.points[b] - domain.mesh.points[a]).normalized();
+    if (n.dot(m) < kOpposite && along.dot(m) > -kOpposite) edges.push_back({a, b});
+  }
+  auto obstacles = GroupEdges(domain.mesh, ObstacleKind::kThinPart, edges);
+  for (MapObstacle& obstacle : obstacles) {
+    obstacle.size = LengthOf(domain.mesh, obstacle.edges[0]);
+    for (const Edge& edge : obstacle.edges) obstacle.size = std::min(obstacle.size, LengthOf(domain.mesh, edge));
+  }
+  return obstacles;
+}
+
+}  // namespace
+
+std::string MapObstacle::Describe() const {
+  std::ostringstream line;
+  const auto edges_of_length = [&](const char* what) {
+    line << edges.size() << what << (edges.size() == 1 ? " edge" : " edges") << ", together " << size << " long";
+  };
+  switch (kind) {
+    case ObstacleKind::kTurn:
+      edges_of_length(" singular");
+      line << ", whose turn is not a quarter turn: no map goes around them";
+      break;
+    case ObstacleKind::kValenceChange:
+      line << "a singular curve that changes from valence 3 to 5, its edges there " << size
+           << " long: it has to turn back on itself, or be straightened";
+      break;
+    case ObstacleKind::kWedge:
+      edges_of_length("");
+      line << " of a wedge of " << angle_deg
+           << " degrees, whose two sides share one parameter: that of the smaller side was let go";
+      break;
+    case ObstacleKind::kThinPart:
+      line << "a part one tetrahedron thick, at its thinnest " << size << ", through " << edges.size()
+           << (edges.size() == 1 ? " edge" : " edges") << ": refine the mesh there";
+      break;
+    case ObstacleKind::kCollapsed:
+      line << tets.size() << (tets.size() == 1 ? " tetrahedron" : " tetrahedra") << " within " << size
+           << ", flat in every map: singular edges or the boundary hold all their corners; refine the mesh there";
+      break;
+    case ObstacleKind::kFlipped:
+      line << tets.size() << (tets.size() == 1 ? " tetrahedron" : " tetrahedra") << " within " << size
+           << ", turned over or flattened";
+      break;
+  }
+  line << "; at " << place.x() << " " << place.y() << " " << place.z();
+  return line.str();
+}
+
+std::vector<MapObstacle> FindObstacles(const MapDomain& domain, const std::vector<int>& flipped) {
+  std::vector<Edge> turns, wedges;
+  for (const SingularEdge& edge : domain.singular_edges) {
+    if (edge.valence == 0) turns.push_back(edge.vertices);
+  }
+  for (const BoundarySheets::Wedge& wedge : domain.sheets.wedges) wedges.push_back(wedge.vertices);
+  auto obstacles = GroupEdges(domain.mesh, ObstacleKind::kTurn, turns);
+  const auto append = [&](std::vector<MapObstacle> more) {
+    std::move(more.begin(), more.end(), std::back_inserter(obstacles));
+  };
+  append(FindValenceChanges(domain));
+  auto wedge_groups = GroupEdges(domain.mesh, ObstacleKind::kWedge, wedges);
+  for (MapObstacle& group : wedge_groups) {
+    group.angle_deg = 180;
+    for (const BoundarySheets::Wedge& wedge : domain.sheets.wedges) {
+      if (std::find(group.edges.begin(), group.edges.end(), wedge.vertices) != group.edges.end()) {
+        group.angle_deg = std::min(group.angle_deg, wedge.angle_deg);
+      }
+    }
+  }
+  append(std::move(wedge_groups));
+  append(FindThinParts(domain));
+  append(GroupTets(domain.mesh, ObstacleKind::kCollapsed, domain.collapsed));
+  std::vector<int> others;
+  for (const int t : flipped) {
+    if (!std::binary_search(domain.collapsed.begin(), domain.collapsed.end(), t)) others.push_back(t);
+  }
+  append(GroupTets(domain.mesh, ObstacleKind::kFlipped, others));
+  return obstacles;
+}
+
+}  // namespace octupole

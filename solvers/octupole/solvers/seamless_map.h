@@ -1,0 +1,62 @@
+#pragma once
+
+#include <ceres/iteration_callback.h>
+#include <ceres/types.h>
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "octupole/maps/map_domain.h"
+#include "octupole/maps/map_quality.h"
+#include "octupole/mesh/tet_mesh.h"
+
+namespace octupole {
+
+struct MapOptions {
+  /// H: the length that one unit of a parameter stands for, so that of the hexahedra's edges. By default, where it is
+  /// 0, twice the mean length of the mesh's edges.
+  double size = 0;
+  /// An integer-grid map: sheets, singular edges and shifts of the cut are rounded to integers, the surest first.
+  bool integer = false;
+  /// Of Newton's method against foldovers.
+  int max_iterations = 200;
+  int num_threads = 1;
+  /// Called after every iteration; of the summary, `iteration`, `cost`, `cost_change`, `gradient_max_norm` and
+  /// `cumulative_time_in_seconds` are set. The cost is the foldover-free energy.
+  ceres::IterationCallback* callback = nullptr;
+};
+
+struct SeamlessMap {
+  MapDomain domain;
+  double size = 0;
+  /// Of the tetrahedra of domain.mesh.
+  CornerParameters parameters;
+  /// CONVERGENCE: no tetrahedron is turned over but those that are flat in every map. NO_CONVERGENCE: some are, and
+  /// either max_iterations were spent or no step would help. USER_SUCCESS, USER_FAILURE: the callback ended it.
+  ceres::TerminationType termination = ceres::NO_CONVERGENCE;
+  /// Tetrahedra that the map turns over or flattens, before and after Newton's method, in ascending order.
+  std::vector<int> flipped_before;
+  std::vector<int> flipped;
+  int num_iterations = 0;
+  /// Unknowns that were rounded, of an integer-grid map.
+  int num_rounded = 0;
+  double setup_seconds = 0;
+  double linear_seconds = 0;
+  double foldover_seconds = 0;
+};
+
+/// A seamless map from a frame field: parameters u whose gradients follow the frames, grad u_k ~ (axis k) / H, that go
+/// on across every inner face up to a rotation of the cube and a shift, and of which one is constant on every face of
+/// the boundary (docs/maps.md).
+///
+///  1. MakeMapDomain: the constraints become linear combinations of free unknowns, so that they hold to rounding.
+///  2. Least squares: the sum over tetrahedra of volume |H grad u - F^T|^2, by conjugate gradients.
+///  3. Newton's method on the foldover-free energy (foldover_energy.h), from there, until no tetrahedron is turned
+///     over; each step by conjugate gradients, no matrix is assembled.
+///
+/// \param frames one rotation per point.
+/// \throw std::invalid_argument as MakeMapDomain does; when an option is out of range.
+SeamlessMap SolveSeamlessMap(const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& frames,
+                             const MapOptions& options = {});
+
+}  // namespace octupole

@@ -1,0 +1,205 @@
+#include "octupole/maps/map_domain.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <random>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "octupole/mesh/box_mesh.h"
+#include "octupole/mesh/mesh_topology.h"
+#include "octupole/mesh/tet_neighbours.h"
+#include "random_inputs.h"
+#include "test_files.h"
+
+namespace octupole {
+namespace {
+
+using testing::HasSubstr;
+using Frames = std::vector<Eigen::Matrix3d>;
+
+Frames ConstantFrames(const TetMesh& mesh) { return Frames(mesh.points.size(), Eigen::Matrix3d::Identity()); }
+
+// Frames turned about the z axis by `turns` of the angle around the middle of a box.
+Frames TurningFrames(const TetMesh& mesh, const Eigen::Vector3d& middle, double turns) {
+  Frames frames;
+  for (const Eigen::Vector3d& p : mesh.points) {
+    const double angle = turns * std::atan2(p.y() - middle.y(), p.x() - middle.x());
+    frames.push_back(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix());
+  }
+  return frames;
+}
+
+Frames RandomFrames(const TetMesh& mesh, unsigned seed) {
+  std::mt19937 generator(seed);
+  Frames frames;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) frames.push_back(RandomFrame(&generator));
+  return frames;
+}
+
+double VolumeOf(const TetMesh& mesh) {
+  double sum = 0;
+  for (const double v : SixfoldVolumes(mesh)) sum += v / 6;
+  return sum;
+}
+
+TEST(MapDomain, OfAConstantFieldOnABoxNeedsNoCut) {
+  const TetMesh mesh = MakeBoxMesh({4, 3, 2}, {4, 3, 2});
+  const MapDomain domain = MakeMapDomain(mesh, ConstantFrames(mesh));
+  EXPECT_TRUE(domain.singular_edges.empty());
+  EXPECT_TRUE(domain.cut.faces.empty());
+  EXPECT_TRUE(domain.collapsed.empty());
+  ASSERT_EQ(domain.sheets.sheets.size(), 6u);
+  double area = 0;
+  for (const auto& sheet : domain.sheets.sheets) area += sheet.area;
+  EXPECT_NEAR(area, 2 * (12 + 8 + 6), 1e-12);
+  // A parameter of each vertex, but for one of each sheet.
+  const int num_points = static_cast<int>(mesh.points.size());
+  EXPECT_EQ(domain.unknowns.num_unknowns, 3 * num_points - 2 * (4 * 3 + 5 * 3 + 5 * 4) + 6);
+}
+
+// A quarter turn of the field around the middle, with the angle around it or against it.
+TEST(MapDomain, TellsValenceThreeFromFive) {
+  for (const int sign : {1, -1}) {
+    const TetMesh mesh = MakeBoxMesh({6, 6, 3}, {6, 6, 3});
+    const MapDomain domain = MakeMapDomain(mesh, TurningFrames(mesh, {3.1, 2.9, 0}, sign * 0.25));
+    ASSERT_FALSE(domain.singular_edges.empty());
+    double height = 0;
+    for (const SingularEdge& edge : domain.singular_edges) {
+      EXPECT_EQ(edge.type, TurnType::kQuarter);
+      EXPECT_EQ(edge.valence, sign > 0 ? 3 : 5);
+      height += std::abs(domain.mesh.points[edge.vertices[0]].z() - domain.mesh.points[edge.vertices[1]].z());
+    }
+    EXPECT_NEAR(height, 3, 1e-12) << "one curve from bottom to top";
+    EXPECT_TRUE(domain.collapsed.empty());
+  }
+}
+
+// What is glued needs no turn, and around every inner edge that is not singular the matches multiply to the identity.
+TEST(MapDomain, GluesWithoutTurnsAndKeepsRegularEdgesRegular) {
+  const TetMesh mesh = MakeBoxMesh({4, 4, 4}, {1, 1, 1});
+  const MapDomain domain = MakeMapDomain(mesh, RandomFrames(mesh, 3));
+  std::vector<bool> is_singular(domain.rings.size(), false);
+  for (const SingularEdge& edge : domain.singular_edges) is_singular[edge.ring] = true;
+  ASSERT_FALSE(domain.singular_edges.empty());
+  for (std::size_t r = 0; r < domain.rings.size(); ++r) {
+    if (!domain.rings.is_closed[r]) continue;
+    EXPECT_EQ(TurnAround(domain.combed, domain.rings, r) != OctahedralRotation(), is_singular[r]);
+  }
+  std::set<std::pair<int, int>> cut;
+  for (const MapCut::Face& face : domain.cut.faces) {
+    cut.insert(std::minmax(face.tet, domain.combed.neighbours[face.tet][face.corner]));
+  }
+  for (int t = 0; t < static_cast<int>(domain.mesh.tets.size()); ++t) {
+    for (int i = 0; i < 4; ++i) {
+      const int s = domain.combed.neighbours[t][i];
+      if (s < t || cut.count({t, s}) > 0) continue;
+      EXPECT_EQ(domain.combed.matches[t][i], 0);
+      for (int k = 0; k < 4; ++k) {
+        if (k == i) continue;
+        const int corner = CornerOf(domain.mesh.tets[s], domain.mesh.tets[t][k]);
+        EXPECT_EQ(domain.cut.nodes[t][k], domain.cut.nodes[s][corner]);
+      }
+    }
+  }
+}
+
+// The frame and its matches do not depend on how axes are named.
+TEST(MapDomain, DoesNotDependOnTheNamesOfAxes) {
+  const TetMesh mesh = MakeBoxMesh({5, 5, 2}, {5, 5, 2});
+  const Frames frames = TurningFrames(mesh, {2.6, 2.3, 0}, 0.25);
+  Frames renamed = frames;
+  std::mt19937 generator(5);
+  for (Eigen::Matrix3d& frame : renamed) frame *= OctahedralGroup()[generator() % 24].matrix();
+  const MapDomain one = MakeMapDomain(mesh, frames), other = MakeMapDomain(mesh, renamed);
+  ASSERT_EQ(one.singular_edges.size(), other.singular_edges.size());
+  for (std::size_t i = 0; i < one.singular_edges.size(); ++i) {
+    EXPECT_EQ(one.singular_edges[i].vertices, other.singular_edges[i].vertices);
+    EXPECT_EQ(one.singular_edges[i].valence, other.singular_edges[i].valence);
+  }
+  EXPECT_EQ(one.unknowns.num_unknowns, other.unknowns.num_unknowns);
+}
+
+// Whatever the unknowns are, on however wild a field: all faces of a patch of the cut have one shift, and all sheets
+// are flat.
+TEST(MapUnknowns, KeepSeamsAndBoundary) {
+  for (const unsigned seed : {1, 2}) {
+    const TetMesh mesh = MakeBoxMesh({3, 3, 3}, {1, 1, 1});
+    const MapDomain domain = MakeMapDomain(mesh, RandomFrames(mesh, seed));
+    std::mt19937 generator(seed);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    std::vector<double> y(domain.unknowns.num_unknowns);
+    for (double& value : y) value = uniform(generator);
+    const std::vector<double> u = domain.unknowns.Parameters(y);
+    const auto at = [&](int t, int i) { return Eigen::Map<const Eigen::Vector3d>(&u[3 * domain.cut.nodes[t][i]]); };
+    std::vector<Eigen::Vector3d> shift(domain.cut.num_patches, Eigen::Vector3d::Constant(NAN));
+    ASSERT_FALSE(domain.cut.faces.empty());
+    for (const MapCut::Face& face : domain.cut.faces) {
+      const int t = domain.combed.neighbours[face.tet][face.corner];
+      const Eigen::Matrix3d g = domain.combed.match(face.tet, face.corner).matrix();
+      for (int i = 0; i < 4; ++i) {
+        if (i == face.corner) continue;
+        const int k = CornerOf(domain.mesh.tets[t], domain.mesh.tets[face.tet][i]);
+        const Eigen::Vector3d here = at(t, k) - g.transpose() * at(face.tet, i);
+        if (std::isnan(shift[face.patch].x())) shift[face.patch] = here;
+        EXPECT_LT((here - shift[face.patch]).norm(), 1e-9);
+      }
+    }
+    for (const BoundarySheets::Face& face : domain.sheets.faces) {
+      if (domain.sheets.sheets[face.sheet].is_released) continue;
+      const double first = at(face.tet, (face.corner + 1) % 4)[face.axis];
+      for (int i = 2; i < 4; ++i) EXPECT_NEAR(at(face.tet, (face.corner + i) % 4)[face.axis], first, 1e-9);
+    }
+  }
+}
+
+TEST(MapDomain, SplitsKeepVolumeOrientationAndParents) {
+  const TetMesh mesh = MakeBoxMesh({3, 3, 3}, {1, 1, 1});
+  const MapDomain domain = MakeMapDomain(mesh, RandomFrames(mesh, 7));
+  ASSERT_GT(domain.mesh.tets.size(), mesh.tets.size());
+  EXPECT_NEAR(VolumeOf(domain.mesh), 1, 1e-12);
+  const auto volumes = SixfoldVolumes(domain.mesh), old_volumes = SixfoldVolumes(mesh);
+  std::vector<double> of_parts(mesh.tets.size(), 0);
+  for (std::size_t t = 0; t < volumes.size(); ++t) {
+    EXPECT_GT(volumes[t], 0);
+    of_parts[domain.parents[t]] += volumes[t];
+  }
+  for (std::size_t t = 0; t < of_parts.size(); ++t) EXPECT_NEAR(of_parts[t], std::abs(old_volumes[t]), 1e-12);
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) EXPECT_EQ(domain.mesh.points[v], mesh.points[v]);
+}
+
+// A prism over a triangle with an angle of 30 degrees, whose two long sides are both nearest to the y axis.
+TEST(BoundarySheets, LetTheSmallerSideOfAWedgeGo) {
+  TetMesh mesh;
+  const double c = std::cos(M_PI / 6), s = std::sin(M_PI / 6);
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0.9 * c, 0.9 * s, 0}, {0, 0, 1}, {1, 0, 1}, {0.9 * c, 0.9 * s, 1}};
+  mesh.tets = {{0, 1, 2, 5}, {0, 1, 5, 4}, {0, 4, 5, 3}};
+  const MapDomain domain = MakeMapDomain(mesh, ConstantFrames(mesh));
+  ASSERT_FALSE(domain.sheets.wedges.empty());
+  EXPECT_NEAR(domain.sheets.wedges[0].angle_deg, 30, 1e-9);
+  const auto& sheets = domain.sheets.sheets;
+  int num_released = 0;
+  for (const auto& sheet : sheets) {
+    num_released += sheet.is_released;
+    if (sheet.is_released) {
+      EXPECT_NEAR(sheet.area, 0.9, 1e-12);
+    }
+  }
+  EXPECT_EQ(num_released, 1);
+}
+
+TEST(MapDomain, NamesBadInput) {
+  TetMesh mesh = MakeBoxMesh({2, 2, 2}, {1, 1, 1});
+  EXPECT_THAT(MessageOf<std::invalid_argument>([&] { MakeMapDomain(mesh, {}); }), HasSubstr("0 frames for 27 points"));
+  std::swap(mesh.tets[5][0], mesh.tets[5][1]);
+  EXPECT_THAT(MessageOf<std::invalid_argument>([&] { MakeMapDomain(mesh, ConstantFrames(mesh)); }),
+              HasSubstr("tetrahedron 5 at"));
+}
+
+}  // namespace
+}  // namespace octupole
