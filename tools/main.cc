@@ -20,6 +20,9 @@
 #include <OpenMesh/Core/System/config.h>
 
 #include "surface_command.h"
+#ifdef OCTUPOLE_WITH_OPENVDB
+#include "grid_command.h"
+#endif
 #endif
 #ifdef OCTUPOLE_WITH_GMSH
 #include <gmsh.h>
@@ -62,6 +65,9 @@ void Run(int argc, char** argv, CLI::App* app) {
   AddCompareCommand(app);
 #ifdef OCTUPOLE_WITH_OPENMESH
   AddSurfaceCommand(app);
+#ifdef OCTUPOLE_WITH_OPENVDB
+  AddGridCommand(app);
+#endif
 #endif
   // Commands run as CLI11 callbacks, so whatever they throw comes out of parse().
   app->parse(argc, argv);

@@ -35,7 +35,9 @@ LIBRARIES = {
     "ceres": ["cost_functions", "solvers"],
     "gmsh": ["adaptors"],
     "OpenMesh": ["adaptors"],
+    "openvdb": ["adaptors"],
     "pugixml": ["io"],
+    "tbb": ["adaptors"],
     "zlib": ["io"],
 }
 
