@@ -22,6 +22,9 @@
 #include <OpenMesh/Core/System/config.h>
 
 #include "surface_command.h"
+#ifdef OCTUPOLE_WITH_OPENVDB
+#include "grid_command.h"
+#endif
 #endif
 #ifdef OCTUPOLE_WITH_GMSH
 #include <gmsh.h>
@@ -67,6 +70,9 @@ void Run(int argc, char** argv, CLI::App* app) {
   AddMapCommand(app);
 #ifdef OCTUPOLE_WITH_OPENMESH
   AddSurfaceCommand(app);
+#ifdef OCTUPOLE_WITH_OPENVDB
+  AddGridCommand(app);
+#endif
 #endif
   AddViewCommand(app);
   // Commands run as CLI11 callbacks, so whatever they throw comes out of parse().

@@ -37,7 +37,9 @@ LIBRARIES = {
     "ceres": ["cost_functions", "solvers"],
     "gmsh": ["adaptors"],
     "OpenMesh": ["adaptors"],
+    "openvdb": ["adaptors"],
     "pugixml": ["io"],
+    "tbb": ["adaptors"],
     "zlib": ["io"],
 }
 

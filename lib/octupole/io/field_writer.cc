@@ -11,7 +11,6 @@
 
 #include "octupole/harmonics/rotation.h"
 #include "octupole/io/atomic_file.h"
-#include "octupole/io/vtu_writer.h"
 
 namespace octupole {
 namespace {
@@ -32,10 +31,11 @@ void WriteLine(std::ostream& out, std::initializer_list<double> numbers) {
 }  // namespace
 
 template <int kDegree>
-void WriteField(const std::filesystem::path& path, const TetMesh& mesh,
-                const std::vector<Harmonic<kDegree>>& coefficients, const std::vector<Eigen::Matrix3d>& frames,
-                const std::vector<Alignment>& alignments) {
-  const std::size_t num_points = mesh.points.size();
+void WriteField(const std::filesystem::path& path, const std::vector<Eigen::Vector3d>& points,
+                const std::vector<VtuCells>& cells, const std::vector<Harmonic<kDegree>>& coefficients,
+                const std::vector<Eigen::Matrix3d>& frames, const std::vector<Alignment>& alignments,
+                std::vector<VtuArray> point_data, const std::vector<VtuArray>& cell_data) {
+  const std::size_t num_points = points.size();
   for (const std::size_t size : {coefficients.size(), frames.size(), alignments.size()}) {
     if (size == num_points) continue;
     throw std::invalid_argument("WriteField: " + std::to_string(size) + " values for " + std::to_string(num_points) +
@@ -50,12 +50,23 @@ void WriteField(const std::filesystem::path& path, const TetMesh& mesh,
   kinds.reserve(num_points);
   for (const Alignment& alignment : alignments) kinds.push_back(static_cast<std::int32_t>(alignment.kind()));
   const double* first_coefficient = coefficients.empty() ? nullptr : coefficients[0].data();
-  WriteVtu(path, mesh,
-           {{"frame_x", 3, axes[0].data()},
-            {"frame_y", 3, axes[1].data()},
-            {"frame_z", 3, axes[2].data()},
-            {kDegree == 3 ? "octupole" : "hexadecapole", kDimension<kDegree>, first_coefficient},
-            {"alignment", 1, kinds.data()}});
+  const std::vector<VtuArray> field = {
+      {"frame_x", 3, axes[0].data()},
+      {"frame_y", 3, axes[1].data()},
+      {"frame_z", 3, axes[2].data()},
+      {kDegree == 3 ? "octupole" : "hexadecapole", kDimension<kDegree>, first_coefficient},
+      {"alignment", 1, kinds.data()}};
+  point_data.insert(point_data.begin(), field.begin(), field.end());
+  WriteVtu(path, points, cells, point_data, cell_data);
+}
+
+template <int kDegree>
+void WriteField(const std::filesystem::path& path, const TetMesh& mesh,
+                const std::vector<Harmonic<kDegree>>& coefficients, const std::vector<Eigen::Matrix3d>& frames,
+                const std::vector<Alignment>& alignments) {
+  std::vector<VtuArray> cell_data;
+  if (!mesh.regions.empty()) cell_data.push_back({"region", 1, mesh.regions.data()});
+  WriteField<kDegree>(path, mesh.points, {CellsOf(mesh)}, coefficients, frames, alignments, {}, cell_data);
 }
 
 void WriteFra(const std::filesystem::path& path, const std::vector<Eigen::Matrix3d>& tet_frames) {
@@ -80,8 +91,16 @@ void WriteQuaternions(const std::filesystem::path& path, const std::vector<Eigen
   });
 }
 
+template void WriteField<3>(const std::filesystem::path&, const std::vector<Eigen::Vector3d>&,
+                            const std::vector<VtuCells>&, const std::vector<Octupole>&,
+                            const std::vector<Eigen::Matrix3d>&, const std::vector<Alignment>&, std::vector<VtuArray>,
+                            const std::vector<VtuArray>&);
 template void WriteField<3>(const std::filesystem::path&, const TetMesh&, const std::vector<Octupole>&,
                             const std::vector<Eigen::Matrix3d>&, const std::vector<Alignment>&);
+template void WriteField<4>(const std::filesystem::path&, const std::vector<Eigen::Vector3d>&,
+                            const std::vector<VtuCells>&, const std::vector<Hexadecapole>&,
+                            const std::vector<Eigen::Matrix3d>&, const std::vector<Alignment>&, std::vector<VtuArray>,
+                            const std::vector<VtuArray>&);
 template void WriteField<4>(const std::filesystem::path&, const TetMesh&, const std::vector<Hexadecapole>&,
                             const std::vector<Eigen::Matrix3d>&, const std::vector<Alignment>&);
 

@@ -6,6 +6,7 @@
 
 #include "octupole/field/alignment.h"
 #include "octupole/harmonics/harmonics.h"
+#include "octupole/io/vtu_writer.h"
 #include "octupole/mesh/tet_mesh.h"
 
 namespace octupole {
@@ -22,6 +23,13 @@ template <int kDegree>
 void WriteField(const std::filesystem::path& path, const TetMesh& mesh,
                 const std::vector<Harmonic<kDegree>>& coefficients, const std::vector<Eigen::Matrix3d>& frames,
                 const std::vector<Alignment>& alignments);
+
+/// The same on cells of any kind, with further arrays of the caller's.
+template <int kDegree>
+void WriteField(const std::filesystem::path& path, const std::vector<Eigen::Vector3d>& points,
+                const std::vector<VtuCells>& cells, const std::vector<Harmonic<kDegree>>& coefficients,
+                const std::vector<Eigen::Matrix3d>& frames, const std::vector<Alignment>& alignments,
+                std::vector<VtuArray> point_data, const std::vector<VtuArray>& cell_data);
 
 /// Writes one frame per tetrahedron (see TetFrames) in the text format .fra of hexahedral meshers such as CubeCover:
 /// the line "FRA 1", a line with the number of tetrahedra, 3 (vectors for each) and 0 (the type), then the vectors, one

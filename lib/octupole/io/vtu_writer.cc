@@ -59,9 +59,11 @@ std::size_t SizeOf(VtuCellType type) {
     case VtuCellType::kTriangle:
       return 3;
     case VtuCellType::kTet:
+      return 4;
+    case VtuCellType::kHexahedron:
       break;
   }
-  return 4;
+  return 8;
 }
 
 // Appends a zlib stream to `compressed`. Run lengths and Huffman codes find most of what there is to find in
@@ -211,11 +213,14 @@ void WriteVtu(const std::filesystem::path& path, const std::vector<Eigen::Vector
   WriteFileAtomically(path, [&](std::ostream& out) { WriteContent(out, points, cells, point_data, cell_data); });
 }
 
+VtuCells CellsOf(const TetMesh& mesh) {
+  return {VtuCellType::kTet, reinterpret_cast<const int*>(mesh.tets.data()), mesh.tets.size()};
+}
+
 void WriteVtu(const std::filesystem::path& path, const TetMesh& mesh, const std::vector<VtuArray>& point_data) {
-  const VtuCells tets = {VtuCellType::kTet, reinterpret_cast<const int*>(mesh.tets.data()), mesh.tets.size()};
   std::vector<VtuArray> cell_data;
   if (!mesh.regions.empty()) cell_data.push_back({"region", 1, mesh.regions.data()});
-  WriteVtu(path, mesh.points, {tets}, point_data, cell_data);
+  WriteVtu(path, mesh.points, {CellsOf(mesh)}, point_data, cell_data);
 }
 
 }  // namespace octupole

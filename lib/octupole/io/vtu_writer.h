@@ -20,9 +20,9 @@ struct VtuArray {
 };
 
 /// Kinds of cells, by VTK's numbers.
-enum class VtuCellType : std::uint8_t { kVertex = 1, kLine = 3, kTriangle = 5, kTet = 10 };
+enum class VtuCellType : std::uint8_t { kVertex = 1, kLine = 3, kTriangle = 5, kTet = 10, kHexahedron = 12 };
 
-/// Cells of one kind: a view of the caller's indices of points, 1, 2, 3 or 4 per cell, cell by cell.
+/// Cells of one kind: a view of the caller's indices of points, 1, 2, 3, 4 or 8 per cell, cell by cell.
 struct VtuCells {
   VtuCellType type;
   const int* vertices;
@@ -40,6 +40,9 @@ struct VtuCells {
 void WriteVtu(const std::filesystem::path& path, const std::vector<Eigen::Vector3d>& points,
               const std::vector<VtuCells>& cells, const std::vector<VtuArray>& point_data,
               const std::vector<VtuArray>& cell_data);
+
+/// The tetrahedra of a mesh.
+VtuCells CellsOf(const TetMesh& mesh);
 
 /// The same for the tetrahedra of a mesh. The regions, if there are any, become the cell array `region`.
 void WriteVtu(const std::filesystem::path& path, const TetMesh& mesh, const std::vector<VtuArray>& point_data);

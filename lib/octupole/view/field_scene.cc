@@ -9,6 +9,7 @@
 
 #include "octupole/field/boundary_alignment.h"
 #include "octupole/field/interfaces.h"
+#include "octupole/field/sharp_edges.h"
 #include "octupole/mesh/mesh_topology.h"
 
 namespace octupole {

@@ -2,19 +2,17 @@
 
 #include <algorithm>
 
-#include "octupole/field/alignment.h"
-
 namespace octupole::internal {
 
+NormalSum SumOfNormals(const std::vector<SurfaceCorner>& corners) {
+  NormalSum sum;
+  for (const SurfaceCorner& corner : corners) sum.Add(corner.normal, corner.angle);
+  return sum;
+}
+
 Matrix7 AveragedProjector(const std::vector<SurfaceCorner>& corners) {
-  Matrix7 sum = Matrix7::Zero();
-  double total = 0;
-  for (const SurfaceCorner& corner : corners) {
-    const Eigen::Matrix<double, 7, 2> basis = AlignedSubspace<3>(Alignment::Axis(corner.normal)).basis;
-    sum += corner.angle * (Matrix7::Identity() - basis * basis.transpose());
-    total += corner.angle;
-  }
-  return sum / total;
+  const NormalSum sum = SumOfNormals(corners);
+  return sum.conflict() / sum.total();
 }
 
 std::vector<SurfaceCorner> WithNormal(std::vector<SurfaceCorner> corners) {

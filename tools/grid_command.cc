@@ -1,0 +1,258 @@
+#include "grid_command.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "activity.h"
+#include "interruption.h"
+#include "octupole/adaptors/surface_grid.h"
+#include "octupole/adaptors/surface_grid_quality.h"
+#include "octupole/adaptors/surface_grid_tets.h"
+#include "octupole/adaptors/surface_grid_vdb.h"
+#include "octupole/adaptors/triangle_mesh_reader.h"
+#include "octupole/io/field_writer.h"
+#include "octupole/io/mesh_io.h"
+#include "octupole/io/singularity_writer.h"
+#include "octupole/singularities/singular_curves.h"
+#include "octupole/singularities/singular_triangles.h"
+#include "octupole/solvers/fast_solver.h"
+#include "output_files.h"
+#include "singularity_report.h"
+#include "solver_arguments.h"
+
+namespace octupole {
+namespace {
+
+struct Arguments {
+  std::filesystem::path surface;
+  std::filesystem::path output;
+  std::filesystem::path report;
+  std::filesystem::path singularities;
+  std::filesystem::path vdb;
+  int resolution = 64;
+  std::optional<double> size;
+  GridOptions grid;
+  SolverArguments solver;
+};
+
+// A surface, or the boundary of a tet mesh.
+TriangleMesh LoadSurface(const std::filesystem::path& path, std::vector<std::string>* warnings) {
+  std::string ending = path.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  static const std::set<std::string> kSurfaces = {".obj", ".off", ".stl", ".ply"};
+  return kSurfaces.count(ending) > 0 ? ReadTriangleMesh(path, warnings) : BoundarySurface(ReadTetMesh(path, warnings));
+}
+
+void PrintSummary(const Arguments& arguments, const nlohmann::ordered_json& report) {
+  const auto count = [](const nlohmann::ordered_json& value) { return value.get<long long>(); };
+  const auto number = [](const nlohmann::ordered_json& value) { return value.get<double>(); };
+  std::printf("%s: %lld triangles\n", arguments.surface.string().c_str(), count(report["triangles"]));
+  std::printf("grid       %lld nodes, %lld cells of size %.4g", count(report["nodes"]), count(report["cells"]),
+              number(report["size"]));
+  if (arguments.grid.levels > 1) std::printf(" and up to %d times that", 1 << (arguments.grid.levels - 1));
+  const auto& alignment = report["alignment"];
+  std::printf("\nalignment  %lld normals, %lld frames, %lld tangents, %lld free; %lld feature edges, %s\n",
+              count(alignment["normals"]), count(alignment["frames"]), count(alignment["tangents"]),
+              count(alignment["free"]), count(report["features"]["edges"]),
+              report["features"]["source"] == "marked" ? "marked" : "by their angle");
+  if (count(alignment["conflicts"]) > 0) {
+    std::printf(
+        "           at %lld nodes several sheets of the surface meet that no frame fits; a size of %.3g would "
+        "separate them\n",
+        count(alignment["conflicts"]), number(alignment["separating_size"]));
+  }
+  std::printf("method     degree %lld, %lld unknowns: %s after %lld iterations\n", count(report["degree"]),
+              count(report["unknowns"]), report["termination"].get<std::string>().c_str(), count(report["iterations"]));
+  std::printf("energy     %.6g; of the frames: degree 3 %.6g, degree 4 %.6g\n", number(report["energy"]),
+              number(report["energy3"]), number(report["energy4"]));
+  std::printf("boundary   error %.2g degrees (largest %.2g)\n", number(report["boundary_rms_deg"]),
+              number(report["boundary_max_deg"]));
+  std::printf("singular   %s\n", SummaryOf(report["singular_structure"]).c_str());
+  const auto& seconds = report["seconds"];
+  std::printf("seconds    read %.2f, grid %.2f, solve %.2f, trace %.2f, measure %.2f, write %.2f\n",
+              number(seconds["read"]), number(seconds["grid"]), number(seconds["solve"]), number(seconds["trace"]),
+              number(seconds["measure"]), number(seconds["write"]));
+  for (const auto* file : {&arguments.output, &arguments.singularities, &arguments.vdb}) {
+    if (!file->empty()) std::printf("written    %s\n", file->string().c_str());
+  }
+}
+
+nlohmann::ordered_json DescribeGridAlignment(const GridAlignment& alignment) {
+  nlohmann::ordered_json section = DescribeAlignment(alignment);
+  section["conflicts"] = alignment.num_conflicts;
+  if (alignment.separating_size) section["separating_size"] = *alignment.separating_size;
+  return section;
+}
+
+std::vector<std::size_t> CountCellsByLevel(const SurfaceGrid& grid, int num_levels) {
+  std::vector<std::size_t> counts(num_levels, 0);
+  for (const std::uint8_t level : grid.levels) ++counts[level];
+  return counts;
+}
+
+template <int kDegree>
+void WriteGrid(const std::filesystem::path& path, const SurfaceGrid& grid, const FieldSolution<kDegree>& field) {
+  const std::vector<double> distances(grid.distances.begin(), grid.distances.end());
+  const std::vector<std::int32_t> levels(grid.levels.begin(), grid.levels.end());
+  WriteField<kDegree>(path, grid.points, {{VtuCellType::kHexahedron, grid.cells[0].data(), grid.cells.size()}},
+                      field.coefficients, field.frames, grid.graph.alignments, {{"distance", 1, distances.data()}},
+                      {{"level", 1, levels.data()}});
+}
+
+template <int kDegree>
+void RunGrid(const Arguments& arguments) {
+  CheckOutputs({arguments.surface}, {{"--output", arguments.output, {".vtu"}},
+                                     {"--report", arguments.report},
+                                     {"--singularities", arguments.singularities, {".vtu"}},
+                                     {"--vdb", arguments.vdb, {".vdb"}}});
+  const InterruptionGuard guard;
+  Stopwatch stopwatch;
+  const std::clock_t cpu_start = std::clock();
+  std::vector<std::string> warnings;
+  SetActivity("reading " + arguments.surface.string());
+  const TriangleMesh surface = LoadSurface(arguments.surface, &warnings);
+  const double read_seconds = stopwatch.Lap();
+
+  SetActivity("making the grid");
+  GridOptions options = arguments.grid;
+  options.size = arguments.size ? *arguments.size : SizeForResolution(surface, arguments.resolution);
+  options.num_threads = arguments.solver.threads;
+  const SurfaceGrid grid = MakeGrid(surface, options, &warnings);
+  const double grid_seconds = stopwatch.Lap();
+  if (!arguments.solver.quiet) PrintWarnings(arguments.surface, warnings);
+
+  SetActivity("solving", grid.points.size());
+  Progress progress(&guard, arguments.solver.quiet);
+  MinimizerOptions minimizer;
+  minimizer.seed = arguments.solver.seed;
+  minimizer.num_threads = arguments.solver.threads;
+  minimizer.callback = &progress;
+  if (arguments.solver.max_iterations) minimizer.max_iterations = *arguments.solver.max_iterations;
+  const FieldSolution<kDegree> field = SolveFast<kDegree>(grid.graph, {}, minimizer);
+  progress.Finish();
+  if (!field.IsUsable()) throw std::runtime_error(arguments.surface.string() + ": the energy is not finite");
+  const double solve_seconds = stopwatch.Lap();
+
+  SingularCurves curves;
+  {
+    const GridTets tets = TetsAtSingularities(grid, field.frames);
+    curves = TraceSingularCurves(tets.mesh, tets.frames, FindSingularTriangles(tets.mesh, tets.frames));
+  }
+  const double trace_seconds = stopwatch.Lap();
+  const GridQuality quality = MeasureGridField(surface, grid, field.frames);
+  const double measure_seconds = stopwatch.Lap();
+
+  SetActivity("writing " + arguments.output.string());
+  WriteGrid<kDegree>(arguments.output, grid, field);
+  if (!arguments.singularities.empty()) WriteSingularities(arguments.singularities, curves, {}, {}, {});
+  if (!arguments.vdb.empty()) WriteGridVdb(arguments.vdb, grid, field.frames);
+  const double write_seconds = stopwatch.Lap();
+
+  const nlohmann::ordered_json report = {
+      {"mesh", arguments.surface.string()},
+      {"output", arguments.output.string()},
+      {"triangles", surface.triangles.size()},
+      {"size", grid.size},
+      {"levels", options.levels},
+      {"nodes", grid.points.size()},
+      {"cells", grid.cells.size()},
+      {"cells_by_level", CountCellsByLevel(grid, options.levels)},
+      {"hanging_nodes", grid.hanging_nodes.size()},
+      {"edges", grid.graph.edges.size()},
+      {"alignment", DescribeGridAlignment(grid.alignment)},
+      {"features",
+       {{"source", grid.alignment.has_marked_features ? "marked" : "angle"},
+        {"edges", grid.alignment.num_feature_edges}}},
+      {"warnings", warnings},
+      {"degree", kDegree},
+      {"seed", arguments.solver.seed},
+      {"unknowns", field.size.unknowns},
+      {"termination", ceres::TerminationTypeToString(field.termination)},
+      {"iterations", field.iterations.empty() ? 0 : field.iterations.back().iteration},
+      {"energy", field.energy},
+      {"energy3", quality.energy3},
+      {"energy4", quality.energy4},
+      {"boundary_rms_deg", quality.boundary_rms_deg},
+      {"boundary_max_deg", quality.boundary_max_deg},
+      {"boundary_samples", quality.boundary_samples},
+      {"singular_structure", SingularStructure(curves, {})},
+      {"seconds",
+       {{"read", read_seconds},
+        {"grid", grid_seconds},
+        {"solve", solve_seconds},
+        {"trace", trace_seconds},
+        {"measure", measure_seconds},
+        {"write", write_seconds}}},
+      // Of all threads, for all that.
+      {"cpu_seconds", static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC},
+  };
+  WriteReport(arguments.report, report);
+  if (guard.IsInterrupted()) {
+    std::fprintf(stderr, "octupole: interrupted; the field reached so far is in %s\n",
+                 arguments.output.string().c_str());
+  }
+  if (!arguments.solver.quiet) PrintSummary(arguments, report);
+}
+
+}  // namespace
+
+void AddGridCommand(CLI::App* app) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app->add_subcommand("grid", "Compute a frame field inside a closed surface, on a grid");
+  command
+      ->add_option("surface", arguments->surface,
+                   ".obj, .off, .stl or .ply; or a tet mesh, of which the boundary is taken")
+      ->required()
+      ->option_text("SURFACE");
+  CLI::Option* resolution = command->add_option("--resolution", arguments->resolution,
+                                                "Of the finest cells, along the longest side of the bounding box");
+  resolution->check(CLI::Range(2, 100000))->option_text("N [64]");
+  command->add_option("--size", arguments->size, "Of the finest cells, instead")
+      ->check(CLI::PositiveNumber)
+      ->excludes(resolution)
+      ->option_text("H");
+  command
+      ->add_option("--levels", arguments->grid.levels,
+                   "Sizes of cells, each twice the one before, from the surface inwards; 1: a uniform grid")
+      ->check(CLI::Range(1, 8))
+      ->option_text("K [1]");
+  command->add_option("-o,--output", arguments->output, "The field, for ParaView; by default SURFACE_grid.vtu, here")
+      ->option_text("F.vtu");
+  command->add_option("--report", arguments->report, "All figures as JSON")->option_text("F.json");
+  command->add_option("--singularities", arguments->singularities, "Singular curves as lines")->option_text("F.vtu");
+  command->add_option("--vdb", arguments->vdb, "Signed distance and axes, for what reads OpenVDB")
+      ->option_text("F.vdb");
+  command
+      ->add_option("--feature-angle", arguments->grid.feature_angle_deg,
+                   "Between normals, above which an edge is a feature where none are marked")
+      ->check(CLI::Range(1., 179.))
+      ->option_text("DEG [40]");
+  command
+      ->add_option_function<std::string>(
+          "--repair",
+          [arguments](const std::string& name) {
+            arguments->grid.repair = name == "close" ? HoleRepair::kClose : HoleRepair::kNone;
+          },
+          "Where the surface is open: none, an error; or close, with caps")
+      ->check(CLI::IsMember({"none", "close"}))
+      ->option_text("NAME [none]");
+  AddSolverArguments(command, &arguments->solver);
+  command->callback([arguments] {
+    if (arguments->solver.solver.value_or("fast") != "fast") {
+      throw CLI::ValidationError("--solver", "grids are solved by fast only, not by " + *arguments->solver.solver);
+    }
+    if (arguments->output.empty()) arguments->output = arguments->surface.stem().string() + "_grid.vtu";
+    arguments->solver.degree.value_or(3) == 3 ? RunGrid<3>(*arguments) : RunGrid<4>(*arguments);
+  });
+}
+
+}  // namespace octupole
