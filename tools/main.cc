@@ -82,6 +82,7 @@ void Run(int argc, char** argv, CLI::App* app) {
 }  // namespace
 }  // namespace octupole
 
+// NOLINTNEXTLINE(bugprone-exception-escape): only where the standard streams or the handlers themselves fail
 int main(int argc, char** argv) {
   CLI::App app("Frame fields on tetrahedral meshes and on surfaces.", "octupole");
   try {

@@ -98,8 +98,9 @@ struct FieldSampler::Trees {
   // The tetrahedron that contains a point, or -1.
   int Find(const Vector3d& point, Mixture* mixture) const {
     struct Search {
+      // NOLINTNEXTLINE(readability-identifier-naming): Eigen's name, as are those below
       bool intersectVolume(const Box& box) const { return box.contains(*point); }
-      bool intersectObject(int t) {
+      bool intersectObject(int t) {  // NOLINT(readability-identifier-naming)
         if (!trees->Contains(t, *point, mixture)) return false;
         found = t;
         return true;
@@ -117,12 +118,12 @@ struct FieldSampler::Trees {
   Mixture NearestOnBoundary(const Vector3d& point, int* triangle) const {
     struct Search {
       using Scalar = double;
-      double minimumOnVolume(const Box& box) const {
+      double minimumOnVolume(const Box& box) const {  // NOLINT(readability-identifier-naming)
         // What is farther than the best so far need not be looked into.
         const double distance = box.squaredExteriorDistance(*point);
         return distance < least ? distance : std::numeric_limits<double>::infinity();
       }
-      double minimumOnObject(int t) {
+      double minimumOnObject(int t) {  // NOLINT(readability-identifier-naming)
         const auto& [a, b, c] = trees->triangles[t];
         const std::vector<Vector3d>& points = trees->points;
         const Vector3d x = NearestInTriangle(*point, points[a], points[b], points[c]);

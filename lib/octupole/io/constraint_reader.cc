@@ -20,7 +20,7 @@ constexpr const char* kSecondAxisName = "constraint_axis_2";
 // The alignment of one, two or three axes.
 Alignment AlignmentOfAxes(const std::vector<Vector3d>& axes) {
   if (axes.size() == 1) return Alignment::Axis(axes[0]);
-  const Alignment frame = Alignment::TwoAxes(axes[0], axes[1]);
+  Alignment frame = Alignment::TwoAxes(axes[0], axes[1]);
   if (axes.size() == 3) {
     // It must fit both others; the frame is that of the first two.
     Alignment::TwoAxes(axes[0], axes[2]);

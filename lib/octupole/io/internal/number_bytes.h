@@ -37,8 +37,8 @@ inline bool IsInteger(NumberType type) { return type != NumberType::kFloat32 && 
 /// Calls visit(a number of this type).
 template <typename Visit>
 auto VisitType(NumberType type, const Visit& visit) {
-  switch (type) {  // NOLINT(bugprone-branch-clone): they differ in their types
-    case NumberType::kInt8:
+  switch (type) {
+    case NumberType::kInt8:  // NOLINT(bugprone-branch-clone): they differ in their types
       return visit(std::int8_t());
     case NumberType::kUInt8:
       return visit(std::uint8_t());

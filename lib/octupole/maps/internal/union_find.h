@@ -9,7 +9,7 @@ namespace octupole::internal {
 /// Disjoint sets of 0..size - 1, each with a bit of parity relative to its root.
 class UnionFind {
  public:
-  explicit UnionFind(int size) : parent_(size), parity_(size, 0) { std::iota(parent_.begin(), parent_.end(), 0); }
+  explicit UnionFind(int size) : parent_(size), parity_(size, false) { std::iota(parent_.begin(), parent_.end(), 0); }
 
   /// The root of x and the parity of x to it.
   std::pair<int, bool> Find(int x) {
@@ -45,7 +45,7 @@ class UnionFind {
 
  private:
   std::vector<int> parent_;
-  std::vector<char> parity_;
+  std::vector<bool> parity_;
 };
 
 }  // namespace octupole::internal
