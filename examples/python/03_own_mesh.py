@@ -6,6 +6,8 @@ vertex gets an edge to a vertex more, whose frame is that of the fibres there.
 usage: 03_own_mesh.py
 """
 
+from typing import Any
+
 import numpy as np
 
 import octupole
@@ -17,8 +19,8 @@ PULL = 2.5
 def main() -> None:
     k, j, i = np.indices((THROUGH, ALONG, AROUND)).reshape(3, -1)
 
-    def vertex(i: np.ndarray, j: np.ndarray, k: np.ndarray) -> np.ndarray:
-        return (k * ALONG + j) * AROUND + i % AROUND
+    def vertex(i: "np.ndarray[Any, Any]", j: "np.ndarray[Any, Any]", k: "np.ndarray[Any, Any]") -> "np.ndarray[Any, Any]":
+        return np.asarray((k * ALONG + j) * AROUND + i % AROUND)
 
     v = vertex(i, j, k)
     edges = np.concatenate([

@@ -60,6 +60,7 @@ std::vector<MapObstacle> GroupEdges(const TetMesh& mesh, ObstacleKind kind, cons
 
 std::vector<MapObstacle> GroupTets(const TetMesh& mesh, ObstacleKind kind, const std::vector<int>& tets) {
   std::vector<std::array<int, 4>> cells;
+  cells.reserve(tets.size());
   for (const int t : tets) cells.push_back(mesh.tets[t]);
   return Group(mesh, kind, cells, [&](std::size_t i, MapObstacle* obstacle) { obstacle->tets.push_back(tets[i]); });
 }
