@@ -29,7 +29,7 @@ constexpr int kNumRandomStarts = 3;
 // Relative decrease per iteration at which the minimisation of a field ends.
 constexpr double kFieldTolerance = 1e-4;
 // The same after a local change, which is but a small part of the energy.
-constexpr double kChangeTolerance = 2e-6;
+constexpr double kChangeTolerance = 1e-5;
 
 double MeanWeight(const FieldGraph& graph) {
   return SumOfWeights(graph) / static_cast<double>(std::max<std::size_t>(1, graph.num_vertices()));
