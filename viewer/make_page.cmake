@@ -20,7 +20,7 @@ file(WRITE ${OUTPUT} "#include \"octupole/view/internal/page_template.h\"
 namespace octupole::internal {
 namespace {
 
-constexpr std::string_view kPieces[] = {
+const std::string_view kPieces[] = {
 ${pieces}};
 
 }  // namespace
