@@ -204,8 +204,8 @@ void RunField(const Arguments& arguments) {
   }
   if (!arguments.html.empty()) {
     const auto points = SingularPoints(mesh.points, boundary, surface.quarter_indices);
-    Scene scene = MakeFieldScene(arguments.mesh.filename().string(), mesh, field.frames, curves, points,
-                                 options.feature_angle_deg);
+    Scene scene = MakeFieldScene(arguments.mesh.filename().string(), mesh, field.frames,
+                                 field.alignment.interfaces.triangles, curves, points, options.feature_angle_deg);
     scene.figures = FieldFigures(mesh, quality, curves, points);
     scene.figures.insert(scene.figures.end(), {{"method", NameOf(arguments.method)},
                                                {"degree", std::to_string(kDegree)},
@@ -242,7 +242,6 @@ void RunField(const Arguments& arguments) {
       {"energy", field.energy},
       {"energy3", quality.energy3},
       {"energy4", quality.energy4},
-      {"energy4_fem", quality.energy4_fem},
       // Where alignment is soft, of the nearest frames that keep to it: to compare with the others.
       {"energy4_aligned", arguments.method == FieldMethod::kHuang
                               ? MeasureField(mesh, AlignFrames(field.alignment.alignments, field.frames)).energy4
@@ -262,6 +261,7 @@ void RunField(const Arguments& arguments) {
       {"cpu_seconds", cpu_seconds},
   };
   if (arguments.method == FieldMethod::kPenalty) report["solver"] = arguments.solver.solver.value_or("fast");
+  if (!arguments.report.empty()) report["energy4_fem"] = FiniteElementEnergy(mesh, field.frames);
   WriteReport(arguments.report, report);
   if (guard.IsInterrupted()) {
     std::fprintf(stderr, "octupole: interrupted; the field reached so far is in %s\n",

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "octupole/field/field_quality.h"
+#include "octupole/field/interfaces.h"
 #include "octupole/io/field_reader.h"
 #include "octupole/mesh/mesh_topology.h"
 #include "octupole/singularities/singular_triangles.h"
@@ -50,7 +51,8 @@ Scene LoadScene(const std::filesystem::path& path, const std::filesystem::path& 
     structure.curves = TraceSingularCurves(mesh, field.frames, singular_triangles);
     structure.points = SingularPoints(mesh.points, boundary, QuarterIndices(mesh.points, boundary, field.frames));
   }
-  Scene scene = MakeFieldScene(title, mesh, field.frames, structure.curves, structure.points);
+  Scene scene = MakeFieldScene(title, mesh, field.frames, FindInterfaces(mesh, boundary).triangles, structure.curves,
+                               structure.points);
   scene.figures = FieldFigures(mesh, MeasureField(mesh, field.frames, singular_triangles, boundary), structure.curves,
                                structure.points);
   return scene;

@@ -99,6 +99,21 @@ TEST(SolveField, IsTheSameOnASecondOrderMeshInEveryMethod) {
   ExpectSameAtCorners<3>(linear, quadratic, with_ceres);
 }
 
+TEST(SolveField, KeepsToConstraintsOnMidEdgeNodes) {
+  const TetMesh mesh = MakeQuadratic(MakeCylinderMesh(4, 4, 2));
+  const int axis_node = mesh.mid_edge_nodes[5][0], frame_node = mesh.mid_edge_nodes[9][0];
+  const Vector3d axis = Vector3d(1, 2, 3).normalized();
+  const Matrix3d axes = Eigen::AngleAxisd(0.5, axis).toRotationMatrix();
+  FieldOptions<3> options;
+  options.constraints = {{axis_node, Alignment::Axis(axis)}, {frame_node, Alignment::Frame(axes)}};
+  const Field<3> field = SolveField<3>(mesh, options);
+  EXPECT_LT(field.frames[axis_node].col(2).cross(axis).norm(), 1e-12);
+  EXPECT_LT(FrameDifference<4>(field.frames[frame_node], axes), 1e-12);
+  for (const int v : {axis_node, frame_node}) {
+    EXPECT_LT((field.coefficients[v] - HarmonicFromFrame<3>(field.frames[v])).norm(), 1e-12) << v;
+  }
+}
+
 TEST(SolveField, DoesNotMindPointsOfNoTet) {
   const TetMesh mesh = MakeCylinderMesh(4, 4, 2);
   TetMesh with_points = mesh;

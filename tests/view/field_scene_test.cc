@@ -4,9 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <stdexcept>
+#include <vector>
 
 #include "octupole/mesh/box_mesh.h"
+#include "octupole/mesh/mesh_topology.h"
 
 namespace octupole {
 namespace {
@@ -20,7 +24,7 @@ std::vector<Eigen::Matrix3d> Constant(const std::vector<Vector3d>& points) {
 
 TEST(MakeFieldScene, ShowsTheBoundaryOfABox) {
   const TetMesh mesh = MakeBoxMesh({2, 2, 2}, {1, 1, 1});
-  const Scene scene = MakeFieldScene("box", mesh, Constant(mesh.points), {}, {});
+  const Scene scene = MakeFieldScene("box", mesh, Constant(mesh.points), {}, {}, {});
   ASSERT_EQ(scene.surfaces.size(), 1u);
   EXPECT_TRUE(scene.surfaces[0].is_solid);
   EXPECT_EQ(scene.surfaces[0].triangles.size(), 6u * 4 * 2);
@@ -34,15 +38,17 @@ TEST(MakeFieldScene, ShowsTheBoundaryOfABox) {
   }
 }
 
-TEST(MakeFieldScene, ShowsInterfacesBetweenRegions) {
-  TetMesh mesh = MakeBoxMesh({2, 1, 1}, {2, 1, 1});
-  for (const auto& tet : mesh.tets) {
-    double x = 0;
-    for (const int v : tet) x += mesh.points[v].x() / 4;
-    mesh.regions.push_back(x < 1 ? 3 : 7);
+TEST(MakeFieldScene, ShowsInterfaces) {
+  const TetMesh mesh = MakeBoxMesh({2, 1, 1}, {2, 1, 1});
+  std::vector<std::array<int, 3>> interfaces;
+  for (const auto& triangle : MeshTriangles(mesh)) {
+    if (std::all_of(triangle.begin(), triangle.end(), [&](int v) { return mesh.points[v].x() == 1; })) {
+      interfaces.push_back(triangle);
+    }
   }
-  const Scene scene = MakeFieldScene("box", mesh, Constant(mesh.points), {}, {});
+  const Scene scene = MakeFieldScene("box", mesh, Constant(mesh.points), interfaces, {}, {});
   ASSERT_EQ(scene.surfaces.size(), 2u);
+  EXPECT_EQ(scene.surfaces[1].name, "interfaces");
   EXPECT_EQ(scene.surfaces[1].triangles.size(), 2u);
   for (const Vector3d& point : scene.surfaces[1].points) EXPECT_EQ(point.x(), 1);
 }
@@ -52,7 +58,7 @@ TEST(MakeFieldScene, ColoursByTheMeanDifference) {
   auto frames = Constant(mesh.points);
   constexpr double kAngle = 0.01;
   frames[0] = Eigen::AngleAxisd(kAngle, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
-  const Scene scene = MakeFieldScene("box", mesh, frames, {}, {});
+  const Scene scene = MakeFieldScene("box", mesh, frames, {}, {}, {});
   // All edges at vertex 0 differ by the angle: 16 times its square (theory.md, section 3).
   EXPECT_NEAR(scene.boxes[0].values[0], 16 * kAngle * kAngle, 1e-6);
   for (const double value : scene.boxes[0].values) EXPECT_LE(value, scene.boxes[0].values[0]);
@@ -65,7 +71,7 @@ TEST(MakeFieldScene, SaysWhatCurvesAre) {
       {TurnType::kQuarter, 5, {{0, 0, 0}, {1, 0, 0}}, 1, 1, {CurveEnd::kBoundary, CurveEnd::kNode}});
   curves.curves.push_back({TurnType::kThird, 0, {{0, 0, 0}, {1, 0, 0}, {0, 0, 0}}, 2, 0, {}});
   curves.nodes.push_back({{1, 0, 0}, 4});
-  const Scene scene = MakeFieldScene("box", mesh, Constant(mesh.points), curves, {{{0, 0, 0}, -1}, {{0, 0, 1}, 2}});
+  const Scene scene = MakeFieldScene("box", mesh, Constant(mesh.points), {}, curves, {{{0, 0, 0}, -1}, {{0, 0, 1}, 2}});
   ASSERT_EQ(scene.curves.size(), 2u);
   EXPECT_EQ(scene.curves[0].label, "valence 5\nquarter turn, index -1/4\nlength 1\nends: boundary, node");
   EXPECT_EQ(scene.kinds[scene.curves[0].kind].name, "valence 5, index -1/4");
@@ -78,7 +84,7 @@ TEST(MakeFieldScene, SaysWhatCurvesAre) {
 
 TEST(MakeFieldScene, WantsOneFramePerPoint) {
   const TetMesh mesh = MakeBoxMesh({1, 1, 1}, {1, 1, 1});
-  EXPECT_THROW(MakeFieldScene("box", mesh, {}, {}, {}), std::invalid_argument);
+  EXPECT_THROW(MakeFieldScene("box", mesh, {}, {}, {}, {}), std::invalid_argument);
 }
 
 TEST(MakeSurfaceScene, ShowsAnOpenSurfaceWithItsBorder) {

@@ -62,13 +62,10 @@ FieldQuality MeasureField(const TetMesh& mesh, const std::vector<Eigen::Matrix3d
                           const std::vector<std::array<int, 3>>& boundary_triangles) {
   CheckFrames("MeasureField", mesh.points, frames);
   FieldQuality quality;
-  const std::vector<Alignment> none(mesh.points.size());
-  for (const auto& [a, b, weight] : MakeFieldGraph(mesh, none, EdgeWeights::kFiniteElement).edges) {
+  for (const auto& [a, b] : MeshEdges(mesh)) {
     ++quality.edges;
     quality.energy3 += FrameDifference<3>(frames[a], frames[b]);
-    const double difference = FrameDifference<4>(frames[a], frames[b]);
-    quality.energy4 += difference;
-    quality.energy4_fem += weight * difference;
+    quality.energy4 += FrameDifference<4>(frames[a], frames[b]);
   }
   for (const SingularTriangle& triangle : singular_triangles) {
     ++quality.singular_triangles;
@@ -79,6 +76,16 @@ FieldQuality MeasureField(const TetMesh& mesh, const std::vector<Eigen::Matrix3d
   quality.boundary_max_deg = boundary.max_deg;
   quality.smooth_boundary_vertices = boundary.smooth_vertices;
   return quality;
+}
+
+double FiniteElementEnergy(const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& frames) {
+  CheckFrames("FiniteElementEnergy", mesh.points, frames);
+  const std::vector<Alignment> none(mesh.points.size());
+  double energy = 0;
+  for (const auto& [a, b, weight] : MakeFieldGraph(mesh, none, EdgeWeights::kFiniteElement).edges) {
+    energy += weight * FrameDifference<4>(frames[a], frames[b]);
+  }
+  return energy;
 }
 
 std::vector<double> MeanDifferences(const std::vector<std::array<int, 2>>& edges,

@@ -34,9 +34,6 @@ struct FieldQuality {
   /// Sum over the mesh's edges of FrameDifference<3> and FrameDifference<4>.
   double energy3 = 0;
   double energy4 = 0;
-  /// The sum of EdgeWeights::kFiniteElement times FrameDifference<4>, in units of length: comparable across meshes of
-  /// one shape, but for the cores of singular curves, whose energy grows with the logarithm of the resolution.
-  double energy4_fem = 0;
   /// The NormalErrors of the boundary.
   double boundary_rms_deg = 0;
   double boundary_max_deg = 0;
@@ -54,6 +51,11 @@ FieldQuality MeasureField(const TetMesh& mesh, const std::vector<Eigen::Matrix3d
 FieldQuality MeasureField(const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& frames,
                           const std::vector<SingularTriangle>& singular_triangles,
                           const std::vector<std::array<int, 3>>& boundary_triangles);
+
+/// The sum over the mesh's edges of EdgeWeights::kFiniteElement times FrameDifference<4>, in units of length:
+/// comparable across meshes of one shape, but for the cores of singular curves, whose energy grows with the logarithm
+/// of the resolution. \throw std::invalid_argument unless there is one frame per point.
+double FiniteElementEnergy(const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& frames);
 
 /// How well the frame of each vertex fits its neighbours', the energy's density: the mean of FrameDifference<3> over
 /// the edges at the vertex, 0 where there are none. \param edges pairs of indices into `frames`.

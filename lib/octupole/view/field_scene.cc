@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "octupole/field/boundary_alignment.h"
-#include "octupole/field/interfaces.h"
 #include "octupole/field/sharp_edges.h"
 #include "octupole/mesh/mesh_topology.h"
 
@@ -145,17 +144,15 @@ void AddPoints(const std::vector<SingularPoint>& points, const std::string& wher
 }  // namespace
 
 Scene MakeFieldScene(const std::string& title, const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& frames,
-                     const SingularCurves& curves, const std::vector<SingularPoint>& boundary_points,
-                     double feature_angle_deg) {
+                     const Triangles& interfaces, const SingularCurves& curves,
+                     const std::vector<SingularPoint>& boundary_points, double feature_angle_deg) {
   Scene scene;
   scene.title = title;
   scene.kinds = kKinds;
   AddFrames("MakeFieldScene", mesh.points, MeshEdges(mesh), frames, false, &scene);
   const TriangleMesh boundary = BoundarySurface(mesh);
   AddSurface("boundary", mesh.points, boundary.triangles, true, &scene);
-  if (Triangles faces = FindInterfaces(mesh, boundary.triangles).triangles; !faces.empty()) {
-    AddSurface("interfaces", mesh.points, std::move(faces), false, &scene);
-  }
+  if (!interfaces.empty()) AddSurface("interfaces", mesh.points, interfaces, false, &scene);
   AddFeatures(boundary, feature_angle_deg, &scene);
   AddCurves(curves, &scene);
   AddPoints(boundary_points, "boundary", &scene);

@@ -15,15 +15,16 @@
 
 namespace octupole {
 
-/// The scene of a field on a tet mesh: its boundary, its interfaces (FindInterfaces), its feature edges (the marked
-/// ones, else those above `feature_angle_deg`), a box for every frame, coloured by the mean FrameDifference<3> to its
-/// neighbours, singular curves by valence, their nodes, and singular points of the boundary. It has no figures.
+/// The scene of a field on a tet mesh: its boundary, its interfaces, its feature edges (the marked ones, else those
+/// above `feature_angle_deg`), a box for every frame, coloured by the mean FrameDifference<3> to its neighbours,
+/// singular curves by valence, their nodes, and singular points of the boundary. It has no figures.
 ///
 /// \param frames one rotation per point, its columns the axes.
+/// \param interfaces triangles of the mesh, such as BoundaryAlignment::interfaces has.
 /// \throw std::invalid_argument unless there is one frame per point.
 Scene MakeFieldScene(const std::string& title, const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& frames,
-                     const SingularCurves& curves, const std::vector<SingularPoint>& boundary_points,
-                     double feature_angle_deg = 40);
+                     const std::vector<std::array<int, 3>>& interfaces, const SingularCurves& curves,
+                     const std::vector<SingularPoint>& boundary_points, double feature_angle_deg = 40);
 
 /// The same for a cross field on a surface: flat boxes, and only the surface's singular points.
 /// \param frames as CrossField gives them, the third axis the surface's normal.

@@ -103,6 +103,10 @@ void FillMidEdgeNodes(const TetMesh& mesh, Field<kDegree>* field) {
   if (!field->IsUsable()) return;
   SetMidEdgeFrames(mesh, &field->frames);
   for (const auto& [node, a, b] : mesh.mid_edge_nodes) {
+    const Alignment& alignment = field->alignment.alignments[node];
+    if (alignment.kind() != AlignmentKind::kFree) {  // by a constraint
+      field->frames[node] = NearestAlignedFrame<4>(alignment, HarmonicFromFrame<4>(field->frames[node]));
+    }
     field->coefficients[node] = HarmonicFromFrame<kDegree>(field->frames[node]);
   }
 }

@@ -86,7 +86,8 @@ struct Field : FieldSolution<kDegree> {
 /// The same seed gives the same field on the same machine, with Ceres on one thread.
 ///
 /// The mid-edge nodes of second-order tetrahedra are no unknowns: they get the mean of their edges' ends
-/// (SetMidEdgeFrames). Other points of no tetrahedron get any frame that their alignment allows.
+/// (SetMidEdgeFrames); where a constraint says otherwise, the nearest frame that keeps to it. Other points of no
+/// tetrahedron get any frame that their alignment allows.
 ///
 /// \throw std::invalid_argument when the mesh cannot carry a field (see CheckTetMesh), an option is out of range, a
 /// constraint is wrong (see ApplyConstraints), a start has another size, both are given, a start or solver is given to
