@@ -1,25 +1,15 @@
 #include "info_command.h"
 
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <array>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <numeric>
 #include <string>
 #include <vector>
 
 #include "activity.h"
-#include "octupole/field/boundary_alignment.h"
-#include "octupole/field/interfaces.h"
+#include "octupole/field/mesh_summary.h"
 #include "octupole/io/mesh_io.h"
-#include "octupole/mesh/mesh_inspection.h"
-#include "octupole/mesh/mesh_topology.h"
-#include "octupole/mesh/seams.h"
-#include "octupole/singularities/surface_singularities.h"
 #include "output_files.h"
 
 namespace octupole {
@@ -33,30 +23,18 @@ struct Arguments {
   bool quiet = false;
 };
 
-ordered_json DescribeRegions(const TetMesh& mesh) {
-  std::map<int, std::size_t> tets_of;
-  for (const int region : mesh.regions) ++tets_of[region];
+ordered_json DescribeRegions(const MeshSummary& summary) {
   ordered_json regions = ordered_json::array();
-  for (const auto& [tag, count] : tets_of) regions.push_back({{"tag", tag}, {"tets", count}});
+  for (const auto& [tag, count] : summary.tets_of_region) regions.push_back({{"tag", tag}, {"tets", count}});
   return regions;
 }
 
-ordered_json DescribeQuality(const TetMesh& mesh) {
-  const std::vector<double> ratios = MeanRatios(mesh);
-  const auto [least, largest] = std::minmax_element(ratios.begin(), ratios.end());
-  return {{"min", *least},
-          {"mean", std::accumulate(ratios.begin(), ratios.end(), 0.) / static_cast<double>(ratios.size())},
-          {"max", *largest}};
-}
-
-// The shells of the boundary. Their topology does not depend on the frames, so that a constant field will do.
-ordered_json DescribeShells(const TetMesh& mesh, const std::vector<std::array<int, 3>>& triangles) {
-  const std::vector<Eigen::Matrix3d> constant(mesh.points.size(), Eigen::Matrix3d::Identity());
+ordered_json DescribeShells(const MeshSummary& summary) {
   ordered_json shells = ordered_json::array();
-  for (const SurfaceComponent& shell : FindSurfaceSingularities(mesh.points, triangles, constant).components) {
+  for (const SurfaceComponent& shell : summary.shells) {
     shells.push_back({{"triangles", shell.triangles}, {"euler_characteristic", shell.euler_characteristic}});
     if (shell.is_closed) {
-      shells.back()["genus"] = (2 - shell.euler_characteristic) / 2;
+      shells.back()["genus"] = shell.genus();
     } else {
       shells.back()["genus"] = nullptr;
     }
@@ -64,50 +42,42 @@ ordered_json DescribeShells(const TetMesh& mesh, const std::vector<std::array<in
   return shells;
 }
 
-// `surface` is the boundary and the interfaces.
-ordered_json DescribeFeatures(const TetMesh& mesh, const std::vector<std::array<int, 3>>& triangles,
-                              const std::vector<std::array<int, 3>>& surface) {
-  return {{"marked_edges", mesh.feature_edges.size()},
-          {"marked_points", mesh.feature_points.size()},
-          {"seams", FindSeams(mesh, surface).size()},
-          {"sharp_edges", AlignToSurface({mesh.points, triangles}).num_feature_edges}};
-}
-
 ordered_json Describe(const std::filesystem::path& path) {
   std::vector<std::string> warnings;
   SetActivity("reading " + path.string());
   const TetMesh mesh = ReadTetMesh(path, &warnings);
   SetActivity("looking at the mesh", mesh.points.size());
-  const MeshInspection inspection = InspectMesh(mesh);
+  const MeshSummary summary = SummarizeMesh(mesh);
+  const MeshInspection& inspection = summary.inspection;
   for (std::string& warning : MeshWarnings(inspection)) warnings.push_back(std::move(warning));
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& point : mesh.points) box.extend(point);
-  const auto triangles = BoundaryTriangles(mesh);
-  const Interfaces interfaces = FindInterfaces(mesh, triangles);
-  for (std::string& warning : InterfaceWarningsOfTool(interfaces)) warnings.push_back(std::move(warning));
-  auto surface = triangles;
-  surface.insert(surface.end(), interfaces.triangles.begin(), interfaces.triangles.end());
-  return {{"mesh", path.string()},
-          {"vertices", mesh.points.size()},
-          {"edges", MeshEdges(mesh).size()},
-          {"triangles", MeshTriangles(mesh).size()},
-          {"tets", mesh.tets.size()},
-          {"bounding_box", {{"min", box.min()}, {"max", box.max()}}},
-          {"regions", DescribeRegions(mesh)},
-          {"components", inspection.components},
-          {"boundary_triangles", triangles.size()},
-          {"boundary_components", DescribeShells(mesh, triangles)},
-          {"features", DescribeFeatures(mesh, triangles, surface)},
-          {"interfaces", DescribeInterfaces(interfaces)},
-          {"mean_ratio", DescribeQuality(mesh)},
-          {"inverted_tets", inspection.inverted_tets},
-          {"zero_volume_tets", inspection.zero_volume_tets},
-          {"duplicate_tets", inspection.duplicate_tets},
-          {"isolated_vertices", inspection.isolated_vertices},
-          {"duplicate_vertices", inspection.duplicate_vertices},
-          {"overfull_triangles", inspection.overfull_triangles},
-          {"non_manifold_boundary_edges", inspection.non_manifold_boundary_edges},
-          {"warnings", warnings}};
+  for (std::string& warning : InterfaceWarningsOfTool(summary.interfaces)) warnings.push_back(std::move(warning));
+  return {
+      {"mesh", path.string()},
+      {"vertices", summary.vertices},
+      {"edges", summary.edges},
+      {"triangles", summary.triangles},
+      {"tets", inspection.tets},
+      {"bounding_box", {{"min", summary.bounding_box.min()}, {"max", summary.bounding_box.max()}}},
+      {"regions", DescribeRegions(summary)},
+      {"components", inspection.components},
+      {"boundary_triangles", summary.boundary_triangles},
+      {"boundary_components", DescribeShells(summary)},
+      {"features",
+       {{"marked_edges", mesh.feature_edges.size()},
+        {"marked_points", mesh.feature_points.size()},
+        {"seams", summary.seams},
+        {"sharp_edges", summary.sharp_edges}}},
+      {"interfaces", DescribeInterfaces(summary.interfaces)},
+      {"mean_ratio",
+       {{"min", summary.least_mean_ratio}, {"mean", summary.average_mean_ratio}, {"max", summary.largest_mean_ratio}}},
+      {"inverted_tets", inspection.inverted_tets},
+      {"zero_volume_tets", inspection.zero_volume_tets},
+      {"duplicate_tets", inspection.duplicate_tets},
+      {"isolated_vertices", inspection.isolated_vertices},
+      {"duplicate_vertices", inspection.duplicate_vertices},
+      {"overfull_triangles", inspection.overfull_triangles},
+      {"non_manifold_boundary_edges", inspection.non_manifold_boundary_edges},
+      {"warnings", warnings}};
 }
 
 // A list of at most a few items: a mesh may have thousands of regions or shells.

@@ -9,4 +9,5 @@ PYBIND11_MODULE(_core, module) {
   octupole::python::AddMathematics(&module);
   octupole::python::AddMeshes(&module);
   octupole::python::AddFields(&module);
+  octupole::python::AddInfo(&module);
 }

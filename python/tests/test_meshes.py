@@ -1,4 +1,6 @@
 import gc
+import json
+import subprocess
 
 import numpy as np
 import pytest
@@ -137,3 +139,23 @@ def test_what_a_reader_leaves_out_is_a_warning(tmp_path):
 def test_box_mesh_checks():
     with pytest.raises(ValueError, match="MakeBoxMesh"):
         octupole.box_mesh((0, 1, 1))
+
+
+def test_info_is_that_of_the_command(bracket, command, tmp_path):
+    report = tmp_path / "info.json"
+    subprocess.run([command, "info", bracket, "--report", report, "--quiet"], check=True)
+    expected = json.loads(report.read_text())
+    assert expected.pop("mesh") == str(bracket)
+    assert octupole.info(octupole.read(bracket)) == expected
+
+
+def test_info_says_what_is_odd():
+    mesh = octupole.TetMesh(
+        [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [9, 9, 9]], [[0, 2, 1, 3]], regions=[7]
+    )
+    info = octupole.info(mesh)
+    assert info["regions"] == [{"tag": 7, "tets": 1}]
+    assert info["boundary_components"] == [{"triangles": 4, "euler_characteristic": 2, "genus": 0}]
+    assert info["inverted_tets"] == 1
+    assert [warning for warning in info["warnings"] if "inverted" in warning]
+    assert [warning for warning in info["warnings"] if "belongs to no tetrahedron" in warning]

@@ -14,6 +14,8 @@ struct SurfaceComponent {
   int euler_characteristic = 0;
   /// Whether every edge has a triangle on both sides.
   bool is_closed = true;
+  /// The number of its handles, where it is closed.
+  int genus() const { return (2 - euler_characteristic) / 2; }
   /// Whether at every vertex an axis of the frame is within a degree of the MeanNormal.
   bool is_normal = true;
   /// Four times the sum of the indices of its triangles; where the component is closed, four times the Euler
