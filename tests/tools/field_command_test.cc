@@ -318,7 +318,9 @@ TEST_F(FieldCommandCorpus, GoesThroughBadMeshesAsTheManifestExpects) {
 // The same to six digits, or both nothing: below 1e-5 degrees judge.py's arc cosine sees rounding only.
 bool Agree(double ours, double judges) { return std::abs(ours - judges) <= 1e-6 * std::abs(judges) + 1e-5; }
 
-TEST_F(FieldCommandCorpus, SatisfiesTheJudgeOnEveryTetMesh) {
+class SlowFieldCommandCorpus : public FieldCommandCorpus {};
+
+TEST_F(SlowFieldCommandCorpus, SatisfiesTheJudgeOnEveryTetMesh) {
   int num_meshes = 0;
   for (const Row& row : ReadManifest(folder_ / "tet/manifest.tsv")) {
     const std::filesystem::path mesh = folder_ / "tet" / row.at("name");
