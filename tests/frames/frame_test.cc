@@ -130,14 +130,18 @@ class BruteForce {
   Eigen::Matrix<double, kDimension<kDegree>, Eigen::Dynamic> samples_;
 };
 
-TYPED_TEST(FrameTest, NearestFrameIsGlobal) {
+TYPED_TEST(FrameTest, NearestFrameIsGlobalFromAnyGuess) {
   constexpr int l = TypeParam::value;
   std::mt19937 generator(6);
   const BruteForce<l> brute_force;
   for (int i = 0; i < 2000; ++i) {
     const Harmonic<l> h = RandomHarmonic<l>(&generator).normalized();
-    const double found = h.dot(HarmonicFromFrame<l>(NearestFrame<l>(h)));
-    EXPECT_NEAR(found, brute_force.Maximum(h), 1e-9) << h.transpose();
+    const double expected = brute_force.Maximum(h);
+    const Matrix3d nearest = NearestFrame<l>(h);
+    EXPECT_NEAR(h.dot(HarmonicFromFrame<l>(nearest)), expected, 1e-9) << h.transpose();
+    for (const Matrix3d& guess : {RandomFrame(&generator), nearest}) {
+      EXPECT_NEAR(h.dot(HarmonicFromFrame<l>(NearestFrame<l>(h, guess))), expected, 1e-9) << h.transpose();
+    }
   }
 }
 

@@ -3,8 +3,6 @@
 #include <gmsh.h>
 
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <fstream>
@@ -116,9 +114,7 @@ TetMesh MeshOfModel() {
 }  // namespace
 
 bool IsCadModel(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
+  const std::string extension = internal::LowerCase(path.extension().string());
   for (const char* known : {".step", ".stp", ".iges", ".igs", ".brep"}) {
     if (extension == known) return true;
   }

@@ -2,7 +2,6 @@
 
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <algorithm>
-#include <cctype>
 #include <cstdint>
 #include <fstream>
 #include <iostream>
@@ -14,6 +13,7 @@
 #include <OpenMesh/Core/IO/importer/ImporterT.hh>
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 
+#include "octupole/io/internal/lower_case.h"
 #include "octupole/io/internal/text_tokenizer.h"
 
 namespace octupole {
@@ -95,13 +95,6 @@ class FaceCollector final : public OpenMesh::IO::ImporterT<Mesh> {
   std::vector<std::vector<int>> faces_;
 };
 
-std::string LowerCase(std::string_view text) {
-  std::string lower(text);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return lower;
-}
-
 // The vertices and faces of an OBJ file. OpenMesh asserts that faces have vertices, passes over vertices that are no
 // numbers, so that all that come after have wrong indices, and opens whatever files of materials are named.
 std::string CheckedObj(const std::filesystem::path& path) {
@@ -152,12 +145,12 @@ void CheckStl(const std::filesystem::path& path) {
   }
   internal::TextTokenizer tokens(path.string(), bytes);
   const auto expect = [&tokens](const char* word) {
-    if (LowerCase(tokens.NextWord()) != word) tokens.Fail("not the '" + std::string(word) + "' of an STL file");
+    if (internal::LowerCase(tokens.NextWord()) != word) tokens.Fail("not the '" + std::string(word) + "' of an STL file");
   };
   expect("solid");
   tokens.SkipLine();
   for (;;) {
-    const std::string keyword = LowerCase(tokens.NextWord());
+    const std::string keyword = internal::LowerCase(tokens.NextWord());
     if (keyword == "endsolid") {
       tokens.SkipLine();
       if (tokens.AtEnd()) return;
@@ -270,15 +263,18 @@ void WarnOfTopology(const TriangleMesh& mesh, std::vector<std::string>* warnings
 
 }  // namespace
 
+bool IsSurfaceFile(const std::filesystem::path& path) {
+  const std::string extension = internal::LowerCase(path.extension().string());
+  return extension == ".obj" || extension == ".off" || extension == ".stl" || extension == ".ply";
+}
+
 TriangleMesh ReadTriangleMesh(const std::filesystem::path& path, std::vector<std::string>* warnings,
                               std::vector<int>* faces) {
   const auto fail = [&](const std::string& what) -> std::runtime_error {
     return std::runtime_error(path.string() + ": " + what);
   };
-  const std::string extension = LowerCase(path.extension().string());
-  if (extension != ".obj" && extension != ".off" && extension != ".stl" && extension != ".ply") {
-    throw fail("not one of .obj, .off, .stl and .ply");
-  }
+  if (!IsSurfaceFile(path)) throw fail("not one of .obj, .off, .stl and .ply");
+  const std::string extension = internal::LowerCase(path.extension().string());
   if (!std::filesystem::is_regular_file(path) || !std::ifstream(path)) throw fail("cannot be opened");
 
   Mesh vertices;

@@ -8,6 +8,9 @@
 
 namespace octupole {
 
+/// Whether the name has an ending that ReadTriangleMesh knows, in upper or lower case.
+bool IsSurfaceFile(const std::filesystem::path& path);
+
 /// Reads the surface in an .obj, .off, .stl or .ply file with OpenMesh. Polygons are cut into fans (see FanOfPolygon),
 /// the corners of an STL file are merged where they coincide, and coordinates have the precision of floats. Faces stay
 /// as they are also where they are no manifold, which a mesh of OpenMesh could not hold. Of OBJ files only vertices and

@@ -1,13 +1,13 @@
 #include "octupole/io/mesh_io.h"
 
 #include <algorithm>
-#include <cctype>
 #include <iterator>
 #include <numeric>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
 
+#include "octupole/io/internal/lower_case.h"
 #include "octupole/io/internal/mesh_readers.h"
 #include "octupole/mesh/internal/sorted_simplices.h"
 
@@ -49,15 +49,8 @@ constexpr std::pair<std::string_view, std::string_view> kOtherContents[] = {
 
 bool StartsWith(std::string_view text, std::string_view start) { return text.substr(0, start.size()) == start; }
 
-std::string LowerExtension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  return extension;
-}
-
 const Format& FormatOfExtension(const std::filesystem::path& path) {
-  const std::string extension = LowerExtension(path);
+  const std::string extension = internal::LowerCase(path.extension().string());
   for (const Format& format : kFormats) {
     if (format.extension == extension) {
       return format;
@@ -285,7 +278,8 @@ TetMesh ReadTetMesh(const std::filesystem::path& path, std::vector<std::string>*
 }
 
 std::vector<std::filesystem::path> TetMeshFiles(const std::filesystem::path& path) {
-  if (LowerExtension(path) != ".node" && LowerExtension(path) != ".ele") return {path};
+  const std::string extension = internal::LowerCase(path.extension().string());
+  if (extension != ".node" && extension != ".ele") return {path};
   const auto files = TetGenFiles(path);
   return {files.begin(), files.end()};
 }
