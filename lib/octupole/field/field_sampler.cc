@@ -57,6 +57,28 @@ Vector3d NearestInTriangle(const Vector3d& p, const Vector3d& a, const Vector3d&
   return {va / sum, vb / sum, vc / sum};
 }
 
+// The order of points along Morton's curve through a grid of 1024^3 cells: each near the one before, so that the way
+// there is short and lies in the cache. Half the time for points in no order.
+std::vector<std::size_t> MortonOrder(const std::vector<Vector3d>& points) {
+  Box box;
+  for (const Vector3d& point : points) box.extend(point);
+  constexpr int kBits = 10;
+  const Eigen::Array3d scale = ((1 << kBits) - 1) / box.sizes().array().max(std::numeric_limits<double>::min());
+  std::vector<std::pair<std::uint32_t, std::size_t>> codes(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Array3i cell = ((points[i] - box.min()).array() * scale).cast<int>();
+    std::uint32_t code = 0;
+    for (int bit = kBits - 1; bit >= 0; --bit) {
+      for (int k = 0; k < 3; ++k) code = code << 1 | (cell[k] >> bit & 1);
+    }
+    codes[i] = {code, i};
+  }
+  std::sort(codes.begin(), codes.end());
+  std::vector<std::size_t> order(points.size());
+  std::transform(codes.begin(), codes.end(), order.begin(), [](const auto& code) { return code.second; });
+  return order;
+}
+
 template <std::size_t kSize>
 std::vector<Box> BoxesOf(const std::vector<Vector3d>& points, const std::vector<std::array<int, kSize>>& cells) {
   std::vector<Box> boxes(cells.size());
@@ -192,21 +214,22 @@ FieldSampler::FieldSampler(const TetMesh& mesh, const std::vector<Eigen::Matrix3
 FieldSampler::~FieldSampler() = default;
 
 FieldSamples FieldSampler::Sample(const std::vector<Vector3d>& points) const {
-  FieldSamples samples;
-  samples.frames.reserve(points.size());
-  samples.is_inside.reserve(points.size());
-  int tet = -1, triangle = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!points[i].allFinite()) {
-      std::ostringstream message;
-      message << "FieldSampler: point " << i << " is not finite: [" << points[i].transpose() << "]";
-      throw std::invalid_argument(message.str());
-    }
+    if (points[i].allFinite()) continue;
+    std::ostringstream message;
+    message << "FieldSampler: point " << i << " is not finite: [" << points[i].transpose() << "]";
+    throw std::invalid_argument(message.str());
+  }
+  FieldSamples samples;
+  samples.frames.resize(points.size());
+  samples.is_inside.resize(points.size());
+  int tet = -1, triangle = 0;
+  for (const std::size_t i : MortonOrder(points)) {
     Mixture mixture;
     if (tet < 0 || !trees_->Contains(tet, points[i], &mixture)) tet = trees_->Find(points[i], &mixture);
     if (tet < 0) mixture = trees_->NearestOnBoundary(points[i], &triangle);
-    samples.frames.push_back(trees_->FrameOf(mixture));
-    samples.is_inside.push_back(tet >= 0);
+    samples.frames[i] = trees_->FrameOf(mixture);
+    samples.is_inside[i] = tet >= 0;
   }
   return samples;
 }

@@ -31,7 +31,7 @@ class FieldSampler {
   FieldSampler(const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& frames);
   ~FieldSampler();
 
-  /// Fastest where a point is near the one before. Any number of threads may sample at once.
+  /// Any number of threads may sample at once.
   /// \throw std::invalid_argument naming the first point that is not finite.
   FieldSamples Sample(const std::vector<Eigen::Vector3d>& points) const;
 
