@@ -17,6 +17,7 @@ from ._core import (
     Field,
     FieldQuality,
     GraphField,
+    SeamlessMap,
     SingularCurve,
     SingularCurves,
     SurfaceField,
@@ -39,6 +40,7 @@ from ._core import (
     read,
     read_surface,
     rotation_matrix,
+    seamless_map,
 )
 
 if TYPE_CHECKING:
@@ -48,6 +50,7 @@ __all__ = [
     "Field",
     "FieldQuality",
     "GraphField",
+    "SeamlessMap",
     "SingularCurve",
     "SingularCurves",
     "SurfaceField",
@@ -66,6 +69,7 @@ __all__ = [
     "read",
     "read_surface",
     "rotation_matrix",
+    "seamless_map",
     "solve",
     "solve_graph",
     "solve_surface",

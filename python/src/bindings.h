@@ -14,6 +14,7 @@ void AddMathematics(py::module_* module);
 void AddMeshes(py::module_* module);
 void AddFields(py::module_* module);
 void AddInfo(py::module_* module);
+void AddMaps(py::module_* module);
 
 /// Calls what reads or writes a file, without Python's lock. What is wrong with the file becomes an OSError.
 template <typename Function>

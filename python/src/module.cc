@@ -10,4 +10,5 @@ PYBIND11_MODULE(_core, module) {
   octupole::python::AddMeshes(&module);
   octupole::python::AddFields(&module);
   octupole::python::AddInfo(&module);
+  octupole::python::AddMaps(&module);
 }
