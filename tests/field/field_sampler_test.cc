@@ -116,6 +116,19 @@ TEST(FieldSampler, LosesNoPointBetweenTets) {
   EXPECT_THAT(FieldSampler(mesh, TurnedAt(mesh.points)).Sample(points).is_inside, Each(1));
 }
 
+TEST(FieldSampler, TakesPointsInAPlaneOneOrNoneAndFarApart) {
+  const TetMesh mesh = MakeBoxMesh({2, 2, 2}, {1, 1, 1});
+  const FieldSampler sampler(mesh, TurnedAt(mesh.points));
+  EXPECT_TRUE(sampler.Sample({}).frames.empty());
+  const Vector3d point(0.3, 0.4, 0.5);
+  const Matrix3d frame = sampler.Sample({point}).frames[0];
+  for (const Vector3d& other : {point, Vector3d(0.1, 0.2, 0.5), Vector3d(1e308, -1e308, 0), Vector3d(5e-324, 0, 0)}) {
+    const FieldSamples samples = sampler.Sample({other, point, -other});
+    EXPECT_LT(FrameDifference<4>(samples.frames[1], frame), 1e-12);
+    for (const Matrix3d& any : samples.frames) EXPECT_NEAR(any.determinant(), 1, 1e-12);
+  }
+}
+
 TEST(FieldSampler, RefusesWhatIsWrong) {
   const TetMesh mesh = MakeBoxMesh({1, 1, 1}, {1, 1, 1});
   std::vector<Matrix3d> frames(mesh.points.size(), Matrix3d::Identity());

@@ -76,8 +76,8 @@ TEST(SurfaceCommand, WritesFieldReportAndSummary) {
   EXPECT_GT(field["handed"], 1 - 1e-6);
   EXPECT_EQ(field["triangles"], 384);
   EXPECT_EQ(field["faces"], 192);
-  EXPECT_EQ(field["indices"], json({0}));
-  EXPECT_EQ(field["alignment"], json({1, 2}));
+  EXPECT_EQ(field["indices"], json::array({0}));
+  EXPECT_EQ(field["alignment"], json::array({1, 2}));
 }
 
 TEST(SurfaceCommand, LeavesBordersFreeWhereAsked) {

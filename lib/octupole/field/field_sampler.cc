@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -60,13 +61,17 @@ Vector3d NearestInTriangle(const Vector3d& p, const Vector3d& a, const Vector3d&
 // The order of points along Morton's curve through a grid of 1024^3 cells: each near the one before, so that the way
 // there is short and lies in the cache. Half the time for points in no order.
 std::vector<std::size_t> MortonOrder(const std::vector<Vector3d>& points) {
-  Box box;
-  for (const Vector3d& point : points) box.extend(point);
+  Box box;  // of halves, whose differences are finite
+  for (const Vector3d& point : points) box.extend(point / 2);
+  const double extent = points.empty() ? 0 : box.sizes().maxCoeff();
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0);
+  if (extent == 0) return order;
   constexpr int kBits = 10;
-  const Eigen::Array3d scale = ((1 << kBits) - 1) / box.sizes().array().max(std::numeric_limits<double>::min());
   std::vector<std::pair<std::uint32_t, std::size_t>> codes(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Array3i cell = ((points[i] - box.min()).array() * scale).cast<int>();
+    const Vector3d place = (points[i] / 2 - box.min()) / extent;
+    const Eigen::Vector3i cell = (((1 << kBits) - 1) * place).cast<int>();
     std::uint32_t code = 0;
     for (int bit = kBits - 1; bit >= 0; --bit) {
       for (int k = 0; k < 3; ++k) code = code << 1 | (cell[k] >> bit & 1);
@@ -74,7 +79,6 @@ std::vector<std::size_t> MortonOrder(const std::vector<Vector3d>& points) {
     codes[i] = {code, i};
   }
   std::sort(codes.begin(), codes.end());
-  std::vector<std::size_t> order(points.size());
   std::transform(codes.begin(), codes.end(), order.begin(), [](const auto& code) { return code.second; });
   return order;
 }
@@ -146,7 +150,7 @@ struct FieldSampler::Trees {
       const auto& [a, b, c] = triangles[t];
       const Vector3d x = NearestInTriangle(point, points[a], points[b], points[c]);
       const double distance = (x[0] * points[a] + x[1] * points[b] + x[2] * points[c] - point).squaredNorm();
-      if (distance >= least) return;
+      if (!(distance < least)) return;  // nor where they overflow
       least = distance;
       nearest = {{a, b, c}, {x[0], x[1], x[2]}, 3};
       *triangle = t;
