@@ -6,11 +6,30 @@
 
 namespace octupole {
 
+namespace {
+
+// A multiple of the frame's harmonic. Basis functions at a direction d are, as a harmonic, a multiple of the Legendre
+// polynomial of d . x. In degree 3, 24 xyz is the sum of the cubes of the four diagonals, each times the product of its
+// coordinates' signs, in which what is linear cancels; in degree 4, what is harmonic of x^4 + y^4 + z^4 is a sum over
+// the axes.
+template <int kDegree>
+Harmonic<kDegree> SumOverFrame(const Eigen::Matrix3d& frame) {
+  const Eigen::Vector3d a = frame.col(0), b = frame.col(1), c = frame.col(2);
+  if constexpr (kDegree == 3) {
+    return EvaluateBasis<3>(a + b + c) - EvaluateBasis<3>(a + b - c) - EvaluateBasis<3>(a - b + c) -
+           EvaluateBasis<3>(b + c - a);
+  } else {
+    return EvaluateBasis<4>(a) + EvaluateBasis<4>(b) + EvaluateBasis<4>(c);
+  }
+}
+
+}  // namespace
+
 template <int kDegree>
 Harmonic<kDegree> HarmonicFromFrame(const Eigen::Matrix3d& frame) {
-  // For the message; HarmonicRotation would name itself.
   CheckRotation("HarmonicFromFrame", frame);
-  return HarmonicRotation<kDegree>(frame) * ReferenceHarmonic<kDegree>();
+  static const double factor = 1 / SumOverFrame<kDegree>(Eigen::Matrix3d::Identity()).norm();
+  return factor * SumOverFrame<kDegree>(frame);
 }
 
 double Permanent(const Eigen::Matrix3d& q) {
