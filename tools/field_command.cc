@@ -66,12 +66,6 @@ struct Arguments {
 const std::map<std::string, EdgeWeights> kWeightsOfName = {{"uniform", EdgeWeights::kUniform},
                                                            {"fem", EdgeWeights::kFiniteElement}};
 
-std::string TwoDecimals(double number) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.2f", number);
-  return text;
-}
-
 TetMesh LoadMesh(const Arguments& arguments, std::vector<std::string>* warnings) {
 #ifdef OCTUPOLE_WITH_GMSH
   if (arguments.size) return MeshCadModel(arguments.mesh, *arguments.size);

@@ -1,6 +1,6 @@
 #include "grid_command.h"
 
-#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
@@ -15,16 +15,22 @@
 #include "activity.h"
 #include "interruption.h"
 #include "octupole/adaptors/surface_grid.h"
+#include "octupole/adaptors/surface_grid_field.h"
 #include "octupole/adaptors/surface_grid_quality.h"
+#include "octupole/adaptors/surface_grid_sampler.h"
 #include "octupole/adaptors/surface_grid_tets.h"
 #include "octupole/adaptors/surface_grid_vdb.h"
 #include "octupole/adaptors/triangle_mesh_reader.h"
 #include "octupole/io/field_writer.h"
 #include "octupole/io/mesh_io.h"
+#include "octupole/io/sample_files.h"
 #include "octupole/io/singularity_writer.h"
 #include "octupole/singularities/singular_curves.h"
 #include "octupole/singularities/singular_triangles.h"
-#include "octupole/solvers/fast_solver.h"
+#include "octupole/solvers/field_solver.h"
+#include "octupole/solvers/method_names.h"
+#include "octupole/view/field_scene.h"
+#include "octupole/view/scene_page.h"
 #include "output_files.h"
 #include "singularity_report.h"
 #include "solver_arguments.h"
@@ -38,9 +44,14 @@ struct Arguments {
   std::filesystem::path report;
   std::filesystem::path singularities;
   std::filesystem::path vdb;
+  std::filesystem::path html;
+  /// Where the field is wanted, and the file for it.
+  std::filesystem::path points;
+  std::filesystem::path samples;
   int resolution = 64;
   std::optional<double> size;
   GridOptions grid;
+  FieldMethod method = FieldMethod::kPenalty;
   SolverArguments solver;
 };
 
@@ -81,7 +92,8 @@ void PrintSummary(const Arguments& arguments, const nlohmann::ordered_json& repo
   std::printf("seconds    read %.2f, grid %.2f, solve %.2f, trace %.2f, measure %.2f, write %.2f\n",
               number(seconds["read"]), number(seconds["grid"]), number(seconds["solve"]), number(seconds["trace"]),
               number(seconds["measure"]), number(seconds["write"]));
-  for (const auto* file : {&arguments.output, &arguments.singularities, &arguments.vdb}) {
+  for (const auto* file :
+       {&arguments.output, &arguments.singularities, &arguments.vdb, &arguments.html, &arguments.samples}) {
     if (!file->empty()) std::printf("written    %s\n", file->string().c_str());
   }
 }
@@ -108,40 +120,77 @@ void WriteGrid(const std::filesystem::path& path, const SurfaceGrid& grid, const
                       {{"level", 1, levels.data()}});
 }
 
+// A page of the field at the nodes inside the solid; those outside are there for the surface's sake.
+template <int kDegree>
+void WritePage(const Arguments& arguments, const TriangleMesh& surface, const SurfaceGrid& grid,
+               const FieldSolution<kDegree>& field, const SingularCurves& curves, const GridQuality& quality) {
+  std::vector<std::array<int, 2>> edges;
+  for (const WeightedEdge& edge : grid.graph.edges) {
+    if (grid.distances[edge.a] <= 0 && grid.distances[edge.b] <= 0) edges.push_back({edge.a, edge.b});
+  }
+  Scene scene = MakeFieldScene(arguments.surface.filename().string(), surface, grid.points, edges, field.frames, curves,
+                               arguments.grid.feature_angle_deg);
+  scene.figures = {{"nodes", std::to_string(grid.points.size())},
+                   {"cells", std::to_string(grid.cells.size())},
+                   {"boundary error, rms", TwoDecimals(quality.boundary_rms_deg) + "\u00b0"},
+                   {"singular curves", std::to_string(curves.curves.size())},
+                   {"method", NameOf(arguments.method)},
+                   {"degree", std::to_string(kDegree)},
+                   {"seed", std::to_string(arguments.solver.seed)}};
+  WriteScenePage(arguments.html, {scene});
+}
+
 template <int kDegree>
 void RunGrid(const Arguments& arguments) {
-  CheckOutputs({arguments.surface}, {{"--output", arguments.output, {".vtu"}},
-                                     {"--report", arguments.report},
-                                     {"--singularities", arguments.singularities, {".vtu"}},
-                                     {"--vdb", arguments.vdb, {".vdb"}}});
+  std::vector<std::filesystem::path> inputs = {arguments.surface};
+  if (!arguments.points.empty()) inputs.push_back(arguments.points);
+  CheckOutputs(inputs, {{"--output", arguments.output, {".vtu"}},
+                        {"--report", arguments.report},
+                        {"--singularities", arguments.singularities, {".vtu"}},
+                        {"--vdb", arguments.vdb, {".vdb"}},
+                        {"--html", arguments.html, {".html", ".htm"}},
+                        {"--sample-output", arguments.samples, {".vtu", ".csv"}}});
+  if (!arguments.html.empty()) CheckScenePages();
   const InterruptionGuard guard;
   Stopwatch stopwatch;
   const std::clock_t cpu_start = std::clock();
   std::vector<std::string> warnings;
   SetActivity("reading " + arguments.surface.string());
   const TriangleMesh surface = LoadSurface(arguments.surface, &warnings);
+  const std::vector<Eigen::Vector3d> points =
+      arguments.points.empty() ? std::vector<Eigen::Vector3d>() : ReadPoints(arguments.points);
   const double read_seconds = stopwatch.Lap();
 
-  SetActivity("making the grid");
-  GridOptions options = arguments.grid;
-  options.size = arguments.size ? *arguments.size : SizeForResolution(surface, arguments.resolution);
-  options.num_threads = arguments.solver.threads;
-  const SurfaceGrid grid = MakeGrid(surface, options, &warnings);
-  const double grid_seconds = stopwatch.Lap();
+  SetActivity("making the grid and solving");
+  GridOptions grid_options = arguments.grid;
+  grid_options.size = arguments.size ? *arguments.size : SizeForResolution(surface, arguments.resolution);
+  grid_options.num_threads = arguments.solver.threads;
+  Progress progress(&guard, arguments.solver.quiet);
+  FieldOptions<kDegree> options;
+  options.method = arguments.method;
+  SetSolverOptions(arguments.solver, &progress, &options);
+  Field<kDegree> field;
+  double solve_seconds = 0;
+  std::vector<std::size_t> num_nodes;  // of the grids
+  const auto solve = [&](const SurfaceGrid& grid, std::vector<Eigen::Matrix3d> start) {
+    num_nodes.push_back(grid.points.size());
+    SetActivity("solving", grid.points.size());
+    if (options.method == FieldMethod::kPenalty) options.start_frames = std::move(start);
+    Stopwatch watch;
+    field = SolveField<kDegree>(grid.graph, options);
+    solve_seconds += watch.Lap();
+    if (!field.IsUsable()) {
+      throw std::runtime_error(arguments.surface.string() + ": the solver failed: " +
+                               (field.ceres_summary ? field.ceres_summary->message : "the energy is not finite"));
+    }
+    return field.frames;
+  };
+  const SurfaceGrid grid = SolveOnGrids(surface, grid_options, solve, &warnings);
+  progress.Finish();
+  const double grid_seconds = stopwatch.Lap() - solve_seconds;
   if (!arguments.solver.quiet) PrintWarnings(arguments.surface, warnings);
 
-  SetActivity("solving", grid.points.size());
-  Progress progress(&guard, arguments.solver.quiet);
-  MinimizerOptions minimizer;
-  minimizer.seed = arguments.solver.seed;
-  minimizer.num_threads = arguments.solver.threads;
-  minimizer.callback = &progress;
-  if (arguments.solver.max_iterations) minimizer.max_iterations = *arguments.solver.max_iterations;
-  const FieldSolution<kDegree> field = SolveFast<kDegree>(grid.graph, {}, minimizer);
-  progress.Finish();
-  if (!field.IsUsable()) throw std::runtime_error(arguments.surface.string() + ": the energy is not finite");
-  const double solve_seconds = stopwatch.Lap();
-
+  SetActivity("measuring and writing the field", grid.points.size());
   SingularCurves curves;
   {
     const GridTets tets = TetsAtSingularities(grid, field.frames);
@@ -151,21 +200,26 @@ void RunGrid(const Arguments& arguments) {
   const GridQuality quality = MeasureGridField(surface, grid, field.frames);
   const double measure_seconds = stopwatch.Lap();
 
-  SetActivity("writing " + arguments.output.string());
   WriteGrid<kDegree>(arguments.output, grid, field);
   if (!arguments.singularities.empty()) WriteSingularities(arguments.singularities, curves, {}, {}, {});
   if (!arguments.vdb.empty()) WriteGridVdb(arguments.vdb, grid, field.frames);
+  if (!arguments.html.empty()) WritePage<kDegree>(arguments, surface, grid, field, curves, quality);
+  if (!arguments.points.empty()) {
+    WriteSamples(arguments.samples, points, GridSampler(grid, field.frames).Sample(points));
+  }
   const double write_seconds = stopwatch.Lap();
 
-  const nlohmann::ordered_json report = {
+  nlohmann::ordered_json report = {
       {"mesh", arguments.surface.string()},
       {"output", arguments.output.string()},
       {"triangles", surface.triangles.size()},
       {"size", grid.size},
-      {"levels", options.levels},
+      {"levels", grid_options.levels},
+      // Of all grids from coarse to fine.
+      {"nodes_by_grid", num_nodes},
       {"nodes", grid.points.size()},
       {"cells", grid.cells.size()},
-      {"cells_by_level", CountCellsByLevel(grid, options.levels)},
+      {"cells_by_level", CountCellsByLevel(grid, grid_options.levels)},
       {"hanging_nodes", grid.hanging_nodes.size()},
       {"edges", grid.graph.edges.size()},
       {"alignment", DescribeGridAlignment(grid.alignment)},
@@ -173,6 +227,7 @@ void RunGrid(const Arguments& arguments) {
        {{"source", grid.alignment.has_marked_features ? "marked" : "angle"},
         {"edges", grid.alignment.num_feature_edges}}},
       {"warnings", warnings},
+      {"method", NameOf(arguments.method)},
       {"degree", kDegree},
       {"seed", arguments.solver.seed},
       {"unknowns", field.size.unknowns},
@@ -195,12 +250,14 @@ void RunGrid(const Arguments& arguments) {
       // Of all threads, for all that.
       {"cpu_seconds", static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC},
   };
+  if (arguments.method == FieldMethod::kPenalty) report["solver"] = arguments.solver.solver.value_or("fast");
   WriteReport(arguments.report, report);
   if (guard.IsInterrupted()) {
     std::fprintf(stderr, "octupole: interrupted; the field reached so far is in %s\n",
                  arguments.output.string().c_str());
   }
   if (!arguments.solver.quiet) PrintSummary(arguments, report);
+  guard.ExitIfInterrupted();
 }
 
 }  // namespace
@@ -229,6 +286,25 @@ void AddGridCommand(CLI::App* app) {
       ->option_text("F.vtu");
   command->add_option("--report", arguments->report, "All figures as JSON")->option_text("F.json");
   command->add_option("--singularities", arguments->singularities, "Singular curves as lines")->option_text("F.vtu");
+  command->add_option("--html", arguments->html, "The field as a page for the browser, as by 'octupole view'")
+      ->option_text("F.html");
+  CLI::Option* points =
+      command
+          ->add_option("--sample", arguments->points,
+                       "Where else the field is wanted: .csv, .txt or .xyz with x, y, z in each line, or any mesh, "
+                       "tetrahedral or not: its vertices")
+          ->option_text("POINTS_OR_MESH");
+  command
+      ->add_option("--sample-output", arguments->samples,
+                   "The frames there; by default POINTS_OR_MESH_samples.vtu, here")
+      ->needs(points)
+      ->option_text("F.vtu|F.csv");
+  command
+      ->add_option_function<std::string>(
+          "--method", [arguments](const std::string& name) { arguments->method = FieldMethodOf(name); },
+          "penalty, or of the classics in degree 4 ray-sokolov, huang or mbo")
+      ->check(CLI::IsMember({"penalty", "ray-sokolov", "huang", "mbo"}))
+      ->option_text("NAME [penalty]");
   command->add_option("--vdb", arguments->vdb, "Signed distance and axes, for what reads OpenVDB")
       ->option_text("F.vdb");
   command
@@ -247,11 +323,18 @@ void AddGridCommand(CLI::App* app) {
       ->option_text("NAME [none]");
   AddSolverArguments(command, &arguments->solver);
   command->callback([arguments] {
-    if (arguments->solver.solver.value_or("fast") != "fast") {
-      throw CLI::ValidationError("--solver", "grids are solved by fast only, not by " + *arguments->solver.solver);
+    const bool is_classic = arguments->method != FieldMethod::kPenalty;
+    if (is_classic && arguments->solver.solver) {
+      throw CLI::ValidationError("--solver", "only for --method penalty, not for " + NameOf(arguments->method));
+    }
+    if (is_classic && arguments->solver.degree == 3) {
+      throw CLI::ValidationError("--degree", NameOf(arguments->method) + " knows degree 4 only");
     }
     if (arguments->output.empty()) arguments->output = arguments->surface.stem().string() + "_grid.vtu";
-    arguments->solver.degree.value_or(3) == 3 ? RunGrid<3>(*arguments) : RunGrid<4>(*arguments);
+    if (!arguments->points.empty() && arguments->samples.empty()) {
+      arguments->samples = arguments->points.stem().string() + "_samples.vtu";
+    }
+    arguments->solver.degree.value_or(is_classic ? 4 : 3) == 3 ? RunGrid<3>(*arguments) : RunGrid<4>(*arguments);
   });
 }
 

@@ -75,6 +75,12 @@ void SetSolverOptions(const SolverArguments& arguments, ceres::IterationCallback
   options->solver->callbacks.push_back(callback);
 }
 
+std::string TwoDecimals(double number) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.2f", number);
+  return text;
+}
+
 void PrintWarnings(const std::filesystem::path& file, const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) {
     std::fprintf(stderr, "%s: warning: %s\n", file.string().c_str(), warning.c_str());

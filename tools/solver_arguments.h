@@ -39,6 +39,9 @@ template <int kDegree>
 void SetSolverOptions(const SolverArguments& arguments, ceres::IterationCallback* callback,
                       FieldOptions<kDegree>* options);
 
+/// A number as text with two digits behind the point.
+std::string TwoDecimals(double number);
+
 /// Prints what is odd about a file, one line each.
 void PrintWarnings(const std::filesystem::path& file, const std::vector<std::string>& warnings);
 

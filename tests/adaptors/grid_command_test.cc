@@ -80,7 +80,7 @@ TEST_F(GridCommand, WritesTheFieldOfASurface) {
   vdb.open();
   const auto distance = openvdb::gridPtrCast<openvdb::FloatGrid>(vdb.readGrid("distance"));
   EXPECT_EQ(distance->activeVoxelCount(), report["nodes"].get<std::uint64_t>());
-  const openvdb::Coord voxel = openvdb::Coord::round(distance->worldToIndex({0, 0, 1.9}));
+  const openvdb::Coord voxel = openvdb::Coord::round(distance->worldToIndex({0, 0, 1.96}));
   const openvdb::Vec3d place = distance->indexToWorld(voxel);
   EXPECT_NEAR(distance->tree().getValue(voxel), place.z() - 2, 0.01);
   const auto axis = openvdb::gridPtrCast<openvdb::Vec3SGrid>(vdb.readGrid("frame_x"));
@@ -97,6 +97,29 @@ TEST_F(GridCommand, TakesTheBoundaryOfATetMesh) {
   EXPECT_EQ(report["triangles"], 7342);
 }
 
+// Nodes of any mesh, by a method of degree 4, and a page.
+TEST_F(GridCommand, GivesTheFieldAnywhere) {
+  WriteText(folder_ / "cylinder.off", CylinderOff(32));
+  WriteText(folder_ / "points.csv", "x,y,z\n0,0,1.9\n0.98,0,1\n5,0,1\n");
+  const Outcome outcome = RunGrid(File("cylinder.off") + " --resolution 8 --method ray-sokolov --quiet -o " +
+                                  File("f.vtu") + " --report " + File("r.json") + " --html " + File("p.html") +
+                                  " --sample " + File("points.csv") + " --sample-output " + File("s.csv"));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const json report = ReadReport(folder_ / "r.json");
+  EXPECT_EQ(report["method"], "ray-sokolov");
+  EXPECT_EQ(report["degree"], 4);
+  EXPECT_THAT(ReadText(folder_ / "p.html"), HasSubstr("boundary error"));
+  // At each point, one axis is along z, and the outermost is as that at the surface.
+  WriteText(folder_ / "read.py",
+            "import sys, numpy\n"
+            "rows = numpy.loadtxt(sys.argv[1], delimiter=',', skiprows=1)\n"
+            "axes = rows[:, 3:12].reshape(-1, 3, 3)\n"
+            "print(len(rows), *rows[:, 12].astype(int), abs(axes[:, :, 2]).max(axis=1).min() > 0.99,\n"
+            "      abs(axes[1:, :, 0]).max(axis=1).min() > 0.97)\n");
+  const Outcome read = Shell("/usr/bin/python3 " + File("read.py") + " " + File("s.csv"));
+  EXPECT_EQ(read.out, "3 1 1 0 True True\n") << read.err;
+}
+
 TEST_F(GridCommand, SaysWhatIsWrong) {
   WriteText(folder_ / "open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n");
   const Outcome open = RunGrid(File("open.obj") + " -o " + File("f.vtu"));
@@ -110,7 +133,9 @@ TEST_F(GridCommand, SaysWhatIsWrong) {
   EXPECT_THAT(large.err, HasSubstr("GB of memory"));
   EXPECT_EQ(RunGrid(File("open.obj") + " --size 1 --resolution 8").exit_code, 2);
   EXPECT_EQ(RunGrid(File("open.obj") + " --levels 0").exit_code, 2);
-  EXPECT_EQ(RunGrid(File("open.obj") + " --solver lbfgs").exit_code, 2);
+  EXPECT_EQ(RunGrid(File("open.obj") + " --method huang --solver lbfgs").exit_code, 2);
+  EXPECT_EQ(RunGrid(File("open.obj") + " --method mbo --degree 3").exit_code, 2);
+  EXPECT_EQ(RunGrid(File("open.obj") + " --sample-output " + File("s.vtu")).exit_code, 2);
 }
 
 }  // namespace

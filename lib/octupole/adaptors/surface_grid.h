@@ -25,9 +25,13 @@ enum class HoleRepair : std::uint8_t {
 struct GridOptions {
   /// Of the finest cells.
   double size = 0;
-  /// Cells have the sizes `size`, 2 size, ..., 2^(levels - 1) size, finest along the surface. With one level the grid
-  /// is uniform.
+  /// Cells have the sizes `size`, 2 size, ..., 2^(levels - 1) size. The finest are those that the surface runs through
+  /// and their siblings, the others as large as neighbours that differ by two at most allow. With one level the grid is
+  /// uniform.
   int levels = 1;
+  /// Cells are the finest near these points, too: the singular curves of a coarser grid's field, for example. Those
+  /// within 2 `size` along each coordinate.
+  std::vector<Eigen::Vector3d> fine_points;
   /// As in AlignToSurface.
   double feature_angle_deg = 40;
   HoleRepair repair = HoleRepair::kNone;
@@ -59,7 +63,9 @@ struct GridAlignment : AlignmentCounts {
 struct SurfaceGrid {
   /// The size of the finest cells.
   double size = 0;
-  /// The nodes, corners of cells. Their coordinates differ by multiples of `size`.
+  /// Cells of width s lie at multiples of s from here.
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  /// The nodes, corners of cells.
   std::vector<Eigen::Vector3d> points;
   /// Of each node to the surface, negative inside; deeper than three widths of the cells there, minus three widths.
   std::vector<float> distances;
@@ -68,12 +74,13 @@ struct SurfaceGrid {
   /// Of each cell, which is 2^level size wide.
   std::vector<std::uint8_t> levels;
   std::vector<HangingNode> hanging_nodes;
-  /// The nodes, the edges of the cells, and what the surface asks of the nodes near it.
+  /// The nodes, edges between nodes of a cell, and what the surface asks of the nodes near it.
   ///
   /// A cell of width s gives each of its 12 edges the weight s / (4 size), so that the cells around an inner edge of
-  /// the finest give it 1. Then the sum of w |u(b) - u(a)|^2 over the edges is, for linear u, the integral of
-  /// |grad u|^2 over the cells, divided by `size`, whatever their levels: on smooth fields, the energy does not depend
-  /// on them. An edge with a node in its middle is two edges in series, with twice the weight each.
+  /// the finest give it 1. Where smaller cells touch it, it has edges to their nodes, too (CellSprings). Then for
+  /// linear u the sum of w |u(b) - u(a)|^2 over the edges is the integral of |grad u|^2 over the cells, divided by
+  /// `size`, and the sum of w (u(b) - u(a)) over the edges of an inner node is zero, whatever the levels: on smooth
+  /// fields, neither the energy nor its minimum depends on them.
   FieldGraph graph;
   GridAlignment alignment;
 };

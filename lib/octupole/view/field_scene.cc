@@ -159,6 +159,19 @@ Scene MakeFieldScene(const std::string& title, const TetMesh& mesh, const std::v
   return scene;
 }
 
+Scene MakeFieldScene(const std::string& title, const TriangleMesh& boundary, const std::vector<Eigen::Vector3d>& points,
+                     const std::vector<std::array<int, 2>>& edges, const std::vector<Eigen::Matrix3d>& frames,
+                     const SingularCurves& curves, double feature_angle_deg) {
+  Scene scene;
+  scene.title = title;
+  scene.kinds = kKinds;
+  AddFrames("MakeFieldScene", points, edges, frames, false, &scene);
+  AddSurface("boundary", boundary.points, boundary.triangles, true, &scene);
+  AddFeatures(boundary, feature_angle_deg, &scene);
+  AddCurves(curves, &scene);
+  return scene;
+}
+
 Scene MakeSurfaceScene(const std::string& title, const TriangleMesh& mesh, const std::vector<Eigen::Matrix3d>& frames,
                        const std::vector<SingularPoint>& points, double feature_angle_deg) {
   Scene scene;

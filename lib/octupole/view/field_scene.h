@@ -26,6 +26,12 @@ Scene MakeFieldScene(const std::string& title, const TetMesh& mesh, const std::v
                      const std::vector<std::array<int, 3>>& interfaces, const SingularCurves& curves,
                      const std::vector<SingularPoint>& boundary_points, double feature_angle_deg = 40);
 
+/// The same for a field at points in a solid that are no mesh, such as the nodes of a grid: without interfaces and
+/// singular points. \param edges between neighbouring points; points without any are left out.
+Scene MakeFieldScene(const std::string& title, const TriangleMesh& boundary, const std::vector<Eigen::Vector3d>& points,
+                     const std::vector<std::array<int, 2>>& edges, const std::vector<Eigen::Matrix3d>& frames,
+                     const SingularCurves& curves, double feature_angle_deg = 40);
+
 /// The same for a cross field on a surface: flat boxes, and only the surface's singular points.
 /// \param frames as CrossField gives them, the third axis the surface's normal.
 Scene MakeSurfaceScene(const std::string& title, const TriangleMesh& mesh, const std::vector<Eigen::Matrix3d>& frames,
