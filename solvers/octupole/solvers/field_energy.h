@@ -12,11 +12,6 @@
 #include "octupole/solvers/workers.h"
 
 namespace octupole {
-namespace internal {
-template <int kDegree>
-struct HarmonicRow;
-struct NeighbourLists;
-}  // namespace internal
 
 /// The energy that BuildFieldProblem makes of residual blocks, as one function: half of E (cost_weight.h) with
 /// its gradient, by one sweep over the vertices. With n = |a|^2, an edge contributes to the gradient of E at its end a
@@ -37,7 +32,7 @@ class FieldEnergy final : public ceres::FirstOrderFunction {
   FieldEnergy(const FieldGraph& graph, const EnergyWeights& weights, Workers* workers);
   ~FieldEnergy() override;
 
-  int NumParameters() const override { return static_cast<int>(first_parameter_.back()); }
+  int NumParameters() const override;
 
   /// `gradient` may be null. Not to be called by two threads at once.
   bool Evaluate(const double* parameters, double* cost, double* gradient) const override;
@@ -50,19 +45,8 @@ class FieldEnergy final : public ceres::FirstOrderFunction {
   std::vector<Harmonic<kDegree>> FieldOf(const std::vector<double>& parameters) const;
 
  private:
-  void Expand(const double* parameters, std::size_t begin, std::size_t end) const;
-
-  std::unique_ptr<internal::NeighbourLists> neighbours_;
-  /// Of each vertex, and the end.
-  std::vector<std::size_t> first_parameter_;
-  /// The columns of an axis' basis and its offset, three rows for each vertex with an axis, from first_axis_row_.
-  std::vector<internal::HarmonicRow<kDegree>> axis_rows_;
-  std::vector<int> first_axis_row_;
-  /// The weights of the penalties at each vertex: scale, deviation.
-  std::vector<double> penalties_;
-  Workers* workers_;
-  /// The field of the last evaluation, with a row of zeros for the filling of the neighbour lists.
-  mutable std::vector<internal::HarmonicRow<kDegree>> rows_;
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
 };
 
 }  // namespace octupole

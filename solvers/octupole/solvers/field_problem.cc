@@ -44,10 +44,15 @@ void CheckField(const char* caller, const FieldGraph& graph, const std::vector<H
 
 template <int kDegree>
 std::vector<Harmonic<kDegree>> RandomField(const FieldGraph& graph, std::uint32_t seed) {
+  return RandomField<kDegree>(graph.alignments, seed);
+}
+
+template <int kDegree>
+std::vector<Harmonic<kDegree>> RandomField(const std::vector<Alignment>& alignments, std::uint32_t seed) {
   std::mt19937 generator(seed);
   std::vector<Harmonic<kDegree>> field;
-  field.reserve(graph.num_vertices());
-  for (const Alignment& alignment : graph.alignments) {
+  field.reserve(alignments.size());
+  for (const Alignment& alignment : alignments) {
     Eigen::Matrix3d frame = RandomRotation(&generator).toRotationMatrix();
     if (alignment.kind() == AlignmentKind::kAxis) {
       // The heading of a random frame is a uniform angle.
@@ -102,6 +107,8 @@ void BuildFieldProblem(const FieldGraph& graph, const EnergyWeights& weights, st
 
 template std::vector<Octupole> RandomField<3>(const FieldGraph&, std::uint32_t);
 template std::vector<Hexadecapole> RandomField<4>(const FieldGraph&, std::uint32_t);
+template std::vector<Octupole> RandomField<3>(const std::vector<Alignment>&, std::uint32_t);
+template std::vector<Hexadecapole> RandomField<4>(const std::vector<Alignment>&, std::uint32_t);
 template void CheckField<3>(const char*, const FieldGraph&, const std::vector<Octupole>&);
 template void CheckField<4>(const char*, const FieldGraph&, const std::vector<Hexadecapole>&);
 template void BuildFieldProblem<3>(const FieldGraph&, const EnergyWeights&, std::vector<Octupole>*, ceres::Problem*);

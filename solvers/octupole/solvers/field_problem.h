@@ -27,6 +27,9 @@ inline constexpr std::array<std::size_t, 3> kUnknownsOfKind = {kDimension<kDegre
 /// A starting field: at each vertex the harmonic of a uniformly random frame that keeps to the vertex's alignment.
 template <int kDegree>
 std::vector<Harmonic<kDegree>> RandomField(const FieldGraph& graph, std::uint32_t seed);
+/// The same from the vertices' alignments.
+template <int kDegree>
+std::vector<Harmonic<kDegree>> RandomField(const std::vector<Alignment>& alignments, std::uint32_t seed);
 
 /// Throws std::invalid_argument, its message beginning with `caller`, unless `field` has one finite value per vertex.
 template <int kDegree>

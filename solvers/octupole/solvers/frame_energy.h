@@ -9,23 +9,16 @@
 #include <vector>
 
 #include "octupole/field/field_graph.h"
-#include "octupole/harmonics/harmonics.h"
 #include "octupole/solvers/workers.h"
 
 namespace octupole {
-namespace internal {
-template <int kDegree>
-struct HarmonicRow;
-struct NeighbourLists;
-}  // namespace internal
 
 /// The smoothness of frames: half of the sum over edges of weight * FrameDifference<4>(A, B), and its gradient,
 /// computed by one sweep over the vertices from the frames' unit harmonics.
 ///
 /// Its parameters turn the given frames. A free vertex has three, x, and the frame A C(x/2): C(r) is the rotation of
 /// the quaternion (1, r) (Cayley), by 2 atan |r| about r; so x is nearly the rotation vector and no angle is singular
-/// but half a turn. An axis leaves one, the angle about it. A prescribed frame has none. All zero gives the given
-/// frames.
+/// but half a turn. An axis leaves one, the third. A prescribed frame has none. All zero gives the given frames.
 ///
 /// With soft alignments every vertex has three parameters, whatever its alignment, and each aligned one adds half of
 /// soft_weight times the squared distance from its harmonic to those of degree 4 that the alignment allows: to
@@ -43,7 +36,7 @@ class FrameEnergy final : public ceres::FirstOrderFunction {
               std::optional<double> soft_weight = std::nullopt, const std::vector<bool>& is_hard = {});
   ~FrameEnergy() override;
 
-  int NumParameters() const override { return static_cast<int>(first_parameter_.back()); }
+  int NumParameters() const override;
 
   /// `gradient` may be null. Not to be called by two threads at once.
   bool Evaluate(const double* parameters, double* cost, double* gradient) const override;
@@ -53,26 +46,8 @@ class FrameEnergy final : public ceres::FirstOrderFunction {
   std::vector<Eigen::Matrix3d> FramesOf(const std::vector<double>& parameters) const;
 
  private:
-  struct SoftAlignment {
-    Hexadecapole offset;
-    Eigen::Matrix<double, kDimension<4>, 2> basis;
-  };
-
-  Eigen::Matrix3d FrameOf(const double* parameters, std::size_t v) const;
-  void Expand(const double* parameters, std::size_t begin, std::size_t end) const;
-  double AddSoftAlignment(std::size_t v, Eigen::Vector3d* torque) const;
-
-  std::unique_ptr<internal::NeighbourLists> neighbours_;
-  std::vector<Eigen::Matrix3d> frames_;
-  /// Of each vertex, and the end.
-  std::vector<std::size_t> first_parameter_;
-  /// The subspaces of soft alignments, and for each vertex the number of its own or -1.
-  std::vector<SoftAlignment> soft_alignments_;
-  std::vector<int> soft_alignment_of_;
-  double soft_weight_ = 0;
-  Workers* workers_;
-  /// The harmonics of the last evaluation, with a row of zeros for the filling of the neighbour lists.
-  mutable std::vector<internal::HarmonicRow<4>> rows_;
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
 };
 
 }  // namespace octupole

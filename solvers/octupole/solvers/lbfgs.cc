@@ -4,35 +4,51 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
+#include "octupole/solvers/internal/minimize_lbfgs.h"
 #include "octupole/solvers/internal/simd.h"
 
 namespace octupole {
+namespace internal {
 namespace {
 
-using internal::Lanes;
-
-constexpr int kMemory = 5;
+constexpr int kMemory = 3;
 // The steps s_i are at 2 i, the changes of the gradient y_i at 2 i + 1.
 constexpr int kNumVectors = 2 * kMemory;
-// Unknowns in a block of the history: small enough for all vectors of a block to stay in the first cache.
+// Unknowns in a block of the history: small enough for all vectors of a block to stay in the first cache, and for their
+// products to be added up as they are.
 constexpr std::size_t kBlock = 512;
 constexpr std::size_t kBlocksPerRange = 16;
 // Iterations over which the decrease of the cost is averaged.
 constexpr int kWindow = 5;
 
-typedef double UnalignedLanes __attribute__((vector_size(32), aligned(8), may_alias));
-typedef float FloatLanes __attribute__((vector_size(16), aligned(4), may_alias));
+template <typename Scalar>
+using Unaligned = typename LanesOf<Scalar>::Unaligned;
 
-OCTUPOLE_INLINE const UnalignedLanes& At(const double* address) {
-  return *reinterpret_cast<const UnalignedLanes*>(address);
+template <typename Scalar>
+OCTUPOLE_INLINE const Unaligned<Scalar>& At(const Scalar* address) {
+  return *reinterpret_cast<const Unaligned<Scalar>*>(address);
 }
-OCTUPOLE_INLINE UnalignedLanes& At(double* address) { return *reinterpret_cast<UnalignedLanes*>(address); }
-OCTUPOLE_INLINE double SumOf(const Lanes& lanes) { return lanes[0] + lanes[1] + lanes[2] + lanes[3]; }
+template <typename Scalar>
+OCTUPOLE_INLINE Unaligned<Scalar>& At(Scalar* address) {
+  return *reinterpret_cast<Unaligned<Scalar>*>(address);
+}
 
 struct HistoryBlock {
   float vectors[kNumVectors][kBlock];
 };
+
+// Lanes of Scalar from the history and to it.
+template <typename Scalar>
+OCTUPOLE_INLINE void Load(const float* address, Lanes<Scalar>* lanes) {
+  *lanes = __builtin_convertvector(*reinterpret_cast<const typename LanesOf<Scalar>::Floats*>(address), Lanes<Scalar>);
+}
+template <typename Scalar>
+OCTUPOLE_INLINE void Store(const Lanes<Scalar>& lanes, float* address) {
+  using Floats = typename LanesOf<Scalar>::Floats;
+  *reinterpret_cast<Floats*>(address) = __builtin_convertvector(lanes, Floats);
+}
 
 using Coefficients = std::array<double, kNumVectors>;
 
@@ -55,36 +71,43 @@ struct Products {
   }
 };
 
+template <typename Scalar>
 struct Points {
-  const double* x;
-  const double* last_x;
-  const double* gradient;
-  const double* last_gradient;
+  const Scalar* x;
+  const Scalar* last_x;
+  const Scalar* gradient;
+  const Scalar* last_gradient;
 };
 
 // Stores the pair of one block in its slot, and adds up the block's inner products.
-OCTUPOLE_INLINE void UpdateBlock(HistoryBlock* history, int slot, const Points& points, Products* products) {
+template <typename Scalar>
+OCTUPOLE_INLINE void UpdateBlock(HistoryBlock* history, int slot, const Points<Scalar>& points, Products* products) {
+  constexpr std::size_t kStep = kLanes<Scalar>;
   float* step = history->vectors[2 * slot];
   float* change = history->vectors[2 * slot + 1];
-  Lanes squared = {};
-  for (std::size_t i = 0; i < kBlock; i += 4) {
-    const Lanes s = At(points.x + i) - At(points.last_x + i);
-    const Lanes y = At(points.gradient + i) - At(points.last_gradient + i);
-    *reinterpret_cast<FloatLanes*>(step + i) = __builtin_convertvector(s, FloatLanes);
-    *reinterpret_cast<FloatLanes*>(change + i) = __builtin_convertvector(y, FloatLanes);
-    squared += At(points.gradient + i) * At(points.gradient + i);
+  Lanes<Scalar> squared = {}, largest = {};
+  for (std::size_t i = 0; i < kBlock; i += kStep) {
+    const Lanes<Scalar> g = At(points.gradient + i);
+    Store<Scalar>(At(points.x + i) - At(points.last_x + i), step + i);
+    Store<Scalar>(g - At(points.last_gradient + i), change + i);
+    squared += g * g;
+    const Lanes<Scalar> magnitude = g < Lanes<Scalar>{} ? -g : g;
+    largest = magnitude > largest ? magnitude : largest;
   }
-  for (std::size_t i = 0; i < kBlock; ++i) {
-    products->max_gradient = std::max(products->max_gradient, std::abs(points.gradient[i]));
+  for (std::size_t k = 0; k < kStep; ++k) {
+    products->max_gradient = std::max(products->max_gradient, static_cast<double>(largest[k]));
   }
   products->squared_gradient += SumOf(squared);
   for (int k = 0; k < kNumVectors; ++k) {
     const float* vector = history->vectors[k];
-    Lanes with_step = {}, with_change = {}, with_gradient = {};
-    for (std::size_t i = 0; i < kBlock; i += 4) {
-      const Lanes v = __builtin_convertvector(*reinterpret_cast<const FloatLanes*>(vector + i), Lanes);
-      with_step += v * __builtin_convertvector(*reinterpret_cast<const FloatLanes*>(step + i), Lanes);
-      with_change += v * __builtin_convertvector(*reinterpret_cast<const FloatLanes*>(change + i), Lanes);
+    Lanes<Scalar> with_step = {}, with_change = {}, with_gradient = {};
+    for (std::size_t i = 0; i < kBlock; i += kStep) {
+      Lanes<Scalar> v, s, y;
+      Load<Scalar>(vector + i, &v);
+      Load<Scalar>(step + i, &s);
+      Load<Scalar>(change + i, &y);
+      with_step += v * s;
+      with_change += v * y;
       with_gradient += v * At(points.gradient + i);
     }
     products->step[k] += SumOf(with_step);
@@ -93,35 +116,24 @@ OCTUPOLE_INLINE void UpdateBlock(HistoryBlock* history, int slot, const Points& 
   }
 }
 
-// direction = sum of coefficients times vectors, plus a multiple of the gradient, in one block.
+// x = last x + sum of coefficients times vectors, plus a multiple of the gradient, in one block.
+template <typename Scalar>
 OCTUPOLE_INLINE void CombineBlock(const HistoryBlock& history, const Coefficients& coefficients,
-                                  double gradient_coefficient, const double* gradient, double* direction) {
-  for (std::size_t i = 0; i < kBlock; i += 4) {
-    Lanes sum = gradient_coefficient * At(gradient + i);
+                                  double gradient_coefficient, const Scalar* last_x, const Scalar* gradient,
+                                  Scalar* x) {
+  for (std::size_t i = 0; i < kBlock; i += kLanes<Scalar>) {
+    Lanes<Scalar> sum = static_cast<Scalar>(gradient_coefficient) * At(gradient + i);
     for (int k = 0; k < kNumVectors; ++k) {
-      sum += coefficients[k] *
-             __builtin_convertvector(*reinterpret_cast<const FloatLanes*>(history.vectors[k] + i), Lanes);
+      Lanes<Scalar> v;
+      Load<Scalar>(history.vectors[k] + i, &v);
+      sum += static_cast<Scalar>(coefficients[k]) * v;
     }
-    At(direction + i) = sum;
+    At(x + i) = At(last_x + i) + sum;
   }
 }
 
-void UpdateNarrow(HistoryBlock* history, int slot, const Points& points, Products* products) {
-  UpdateBlock(history, slot, points, products);
-}
-OCTUPOLE_WIDE void UpdateWide(HistoryBlock* history, int slot, const Points& points, Products* products) {
-  UpdateBlock(history, slot, points, products);
-}
-void CombineNarrow(const HistoryBlock& history, const Coefficients& coefficients, double gradient_coefficient,
-                   const double* gradient, double* direction) {
-  CombineBlock(history, coefficients, gradient_coefficient, gradient, direction);
-}
-OCTUPOLE_WIDE void CombineWide(const HistoryBlock& history, const Coefficients& coefficients,
-                               double gradient_coefficient, const double* gradient, double* direction) {
-  CombineBlock(history, coefficients, gradient_coefficient, gradient, direction);
-}
-
 // The pairs of the last steps and their inner products.
+template <typename Scalar>
 class History {
  public:
   History(std::size_t num_blocks, Workers* workers) : workers_(workers), blocks_(num_blocks) {}
@@ -132,16 +144,18 @@ class History {
   double max_gradient() const { return products_.max_gradient; }
 
   // Takes the pair in, unless the curvature along the step is not positive.
-  void Update(const Points& points) {
+  void Update(const Points<Scalar>& points) {
     const int slot = (newest_ + 1) % kMemory;
     partial_products_.assign((blocks_.size() + kBlocksPerRange - 1) / kBlocksPerRange, Products());
     workers_->ForEachRange(blocks_.size(), kBlocksPerRange, [&](std::size_t begin, std::size_t end) {
-      const auto update = internal::HasWideLanes() ? UpdateWide : UpdateNarrow;
-      for (std::size_t block = begin; block < end; ++block) {
-        const std::size_t i = block * kBlock;
-        update(&blocks_[block], slot, {points.x + i, points.last_x + i, points.gradient + i, points.last_gradient + i},
-               &partial_products_[begin / kBlocksPerRange]);
-      }
+      CallVectorised([&]() OCTUPOLE_INLINE_LAMBDA {
+        for (std::size_t block = begin; block < end; ++block) {
+          const std::size_t i = block * kBlock;
+          UpdateBlock<Scalar>(&blocks_[block], slot,
+                              {points.x + i, points.last_x + i, points.gradient + i, points.last_gradient + i},
+                              &partial_products_[begin / kBlocksPerRange]);
+        }
+      });
     });
     products_ = Products();
     for (const Products& partial : partial_products_) products_.Add(partial);
@@ -159,10 +173,12 @@ class History {
     }
   }
 
-  // The quasi-Newton direction, and its product with the gradient.
-  double Direction(const std::vector<double>& gradient, double first_step, std::vector<double>* direction) const {
-    Coefficients coefficients = {};
-    double gradient_coefficient = 1;
+  // Finds the quasi-Newton direction as a combination of vectors, and returns its product with the gradient.
+  double FindDirection(double first_step) {
+    Coefficients& coefficients = coefficients_;
+    double& gradient_coefficient = gradient_coefficient_;
+    coefficients.fill(0);
+    gradient_coefficient = 1;
     // v_i . (combination so far).
     const auto product = [&](int i) {
       double sum = gradient_coefficient * products_.gradient[i];
@@ -190,14 +206,21 @@ class History {
       coefficients[k] = -coefficients[k];
       if (coefficients[k] != 0) slope += coefficients[k] * products_.gradient[k];
     }
+    gradient_coefficient = -gradient_coefficient;
+    return slope + gradient_coefficient * products_.squared_gradient;
+  }
+
+  // x = last x + that direction.
+  void Step(const std::vector<Scalar>& last_x, const std::vector<Scalar>& gradient, std::vector<Scalar>* x) const {
     workers_->ForEachRange(blocks_.size(), kBlocksPerRange, [&](std::size_t begin, std::size_t end) {
-      const auto combine = internal::HasWideLanes() ? CombineWide : CombineNarrow;
-      for (std::size_t block = begin; block < end; ++block) {
-        combine(blocks_[block], coefficients, -gradient_coefficient, gradient.data() + block * kBlock,
-                direction->data() + block * kBlock);
-      }
+      CallVectorised([&]() OCTUPOLE_INLINE_LAMBDA {
+        for (std::size_t block = begin; block < end; ++block) {
+          const std::size_t i = block * kBlock;
+          CombineBlock<Scalar>(blocks_[block], coefficients_, gradient_coefficient_, last_x.data() + i,
+                               gradient.data() + i, x->data() + i);
+        }
+      });
     });
-    return slope - gradient_coefficient * products_.squared_gradient;
   }
 
  private:
@@ -206,31 +229,39 @@ class History {
   std::vector<Products> partial_products_;
   Products products_;
   std::array<Coefficients, kNumVectors> gram_ = {};
+  Coefficients coefficients_ = {};
+  double gradient_coefficient_ = 0;
   int newest_ = kMemory - 1;
   int size_ = 0;
 };
 
 }  // namespace
 
-LbfgsSummary MinimizeLbfgs(const ceres::FirstOrderFunction& function, const LbfgsOptions& options, Workers* workers,
-                           std::vector<double>* x) {
+template <typename Scalar>
+LbfgsSummary MinimizeLbfgs(const SmoothFunction<Scalar>& function, const LbfgsOptions& options, Workers* workers,
+                           std::vector<Scalar>* x) {
   constexpr double kSufficientDecrease = 1e-4;
   constexpr int kMaxCuts = 10;
   const std::size_t size = x->size();
   const std::size_t num_blocks = (size + kBlock - 1) / kBlock;
   // Filled up with zeros to whole blocks.
-  std::vector<double> point(num_blocks * kBlock, 0), last_point(point), gradient(point), last_gradient(point),
-      direction(point);
-  std::copy(x->begin(), x->end(), point.begin());
-  History history(num_blocks, workers);
+  std::vector<Scalar> point = std::move(*x);
+  point.resize(num_blocks * kBlock, 0);
+  std::vector<Scalar> last_point(point.size()), gradient(point.size()), last_gradient(point.size());
+  History<Scalar> history(num_blocks, workers);
 
   LbfgsSummary summary;
   double cost = 0;
   const auto evaluate = [&] {
     ++summary.num_evaluations;
-    return function.Evaluate(point.data(), &cost, gradient.data()) && std::isfinite(cost);
+    return function(point.data(), &cost, gradient.data()) && std::isfinite(cost);
   };
-  if (!evaluate()) return summary;
+  const auto finish = [&] {
+    point.resize(size);
+    *x = std::move(point);
+    return summary;
+  };
+  if (!evaluate()) return finish();
   summary.initial_cost = summary.final_cost = cost;
   // Only for the products with the gradient: the step is zero.
   history.Update({point.data(), point.data(), gradient.data(), gradient.data()});
@@ -243,25 +274,29 @@ LbfgsSummary MinimizeLbfgs(const ceres::FirstOrderFunction& function, const Lbfg
       summary.termination = ceres::CONVERGENCE;
       break;
     }
-    double slope = history.Direction(gradient, options.first_step, &direction);
+    double slope = history.FindDirection(options.first_step);
     if (!(slope < 0) && !history.IsEmpty()) {
       history.Clear();
-      slope = history.Direction(gradient, options.first_step, &direction);
+      slope = history.FindDirection(options.first_step);
     }
     std::swap(point, last_point);
     std::swap(gradient, last_gradient);
+    history.Step(last_point, last_gradient, &point);
     const double last_cost = summary.final_cost;
     double step = 1;
     bool is_lower = false;
     for (int cut = 0; cut < kMaxCuts; ++cut) {
-      workers->ForEachRange(point.size(), kBlock * kBlocksPerRange, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) point[i] = last_point[i] + step * direction[i];
-      });
       is_lower = evaluate() && cost <= last_cost + kSufficientDecrease * step * slope;
       if (is_lower) break;
       // The minimum of the parabola through what is known, within reason.
       const double parabola = -slope * step * step / (2 * (cost - last_cost - slope * step));
-      step = std::isfinite(parabola) ? std::clamp(parabola, 0.1 * step, 0.5 * step) : 0.1 * step;
+      const double part = std::isfinite(parabola) ? std::clamp(parabola / step, 0.1, 0.5) : 0.1;
+      step *= part;
+      workers->ForEachRange(point.size(), kBlock * kBlocksPerRange, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          point[i] = last_point[i] + static_cast<Scalar>(part) * (point[i] - last_point[i]);
+        }
+      });
     }
     if (!is_lower) {
       std::swap(point, last_point);
@@ -296,8 +331,19 @@ LbfgsSummary MinimizeLbfgs(const ceres::FirstOrderFunction& function, const Lbfg
     }
     oldest_cost = cost;
   }
-  std::copy_n(point.begin(), size, x->begin());
-  return summary;
+  return finish();
+}
+
+template LbfgsSummary MinimizeLbfgs(const SmoothFunction<float>&, const LbfgsOptions&, Workers*, std::vector<float>*);
+template LbfgsSummary MinimizeLbfgs(const SmoothFunction<double>&, const LbfgsOptions&, Workers*, std::vector<double>*);
+
+}  // namespace internal
+
+LbfgsSummary MinimizeLbfgs(const ceres::FirstOrderFunction& function, const LbfgsOptions& options, Workers* workers,
+                           std::vector<double>* x) {
+  return internal::MinimizeLbfgs<double>(
+      [&](const double* point, double* cost, double* gradient) { return function.Evaluate(point, cost, gradient); },
+      options, workers, x);
 }
 
 }  // namespace octupole

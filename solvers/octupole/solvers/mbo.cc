@@ -46,7 +46,7 @@ class ProximalFunction final : public ceres::FirstOrderFunction {
   double inverse_time_;
 };
 
-double CostOf(const ceres::FirstOrderFunction& function, const std::vector<double>& x) {
+double CostOf(const FieldEnergy<4>& function, const std::vector<double>& x) {
   double cost = 0;
   function.Evaluate(x.data(), &cost, nullptr);
   return cost;
@@ -83,7 +83,7 @@ FrameSolution SolveMbo(const FieldGraph& graph, const MinimizerOptions& options)
     const ProximalFunction diffusion(energy, x, lambda * std::pow(step, 3) / 50);
     std::vector<double> diffused = x;
     minimizer.Minimize(diffusion, ordered, kDiffusionTolerance, &diffused);
-    frames = internal::ProjectField<4>(ordered, energy.FieldOf(diffused), minimizer.workers());
+    frames = internal::ProjectField<4>(ordered.alignments, energy.FieldOf(diffused), minimizer.workers());
     std::vector<double> projected = energy.ParametersOf(internal::HarmonicsOf<4>(frames));
     const double change = Distance(projected, x);
     const double last_cost = std::exchange(cost, CostOf(energy, projected));

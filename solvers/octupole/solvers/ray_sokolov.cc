@@ -18,9 +18,10 @@ FrameSolution SolveRaySokolov(const FieldGraph& graph, const MinimizerOptions& o
   CheckFieldGraph(graph);
   internal::Minimizer minimizer(options);
   const std::vector<int> order = BreadthFirstOrder(graph);
-  const FieldGraph ordered = Reorder(graph, order);
+  const internal::SweepGraph ordered(Reorder(graph, order));
   internal::Frames frames = internal::LinearFrames(ordered, kLinearTolerance, options.seed, &minimizer);
-  const double energy = internal::PolishFrames(ordered, &minimizer, &frames);
+  internal::PolishFrames(ordered, &minimizer, &frames);
+  const double energy = internal::EnergyOfFrames(ordered, frames, minimizer.workers());
   return minimizer.MakeSolution(graph, order, frames, energy, SizeOfProblem(graph, kUnknownsOfKind<4>));
 }
 

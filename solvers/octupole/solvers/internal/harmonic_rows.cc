@@ -1,36 +1,45 @@
 #include "octupole/solvers/internal/harmonic_rows.h"
 
 #include <cmath>
+#include <stdexcept>
 
-#include "octupole/harmonics/rotation.h"
+#include "octupole/harmonics/quadrics.h"
 
 namespace octupole::internal {
 
-template <int kDegree>
-SparseGenerators<kDegree>::SparseGenerators() {
+template <int kDegree, typename Scalar, int kShift, bool kSwaps>
+OrderMatrix<kDegree, Scalar, kShift, kSwaps>::OrderMatrix(const HarmonicMatrix<kDegree>& matrix) {
   // Rounding leaves entries near 1e-16 where zeros belong.
   constexpr double kZero = 1e-12;
-  for (int axis = 0; axis < 3; ++axis) {
-    const HarmonicMatrix<kDegree>& generator = RotationGenerators<kDegree>()[axis];
-    for (int i = 0; i < kDimension<kDegree>; ++i) {
-      int num_entries = 0;
-      for (int j = 0; j < kDimension<kDegree>; ++j) {
-        if (std::abs(generator(i, j)) < kZero) continue;
-        rows_[axis][i].columns.at(num_entries) = j;
-        rows_[axis][i].entries.at(num_entries) = generator(i, j);
-        ++num_entries;
-      }
+  HarmonicMatrix<kDegree> rest = matrix;
+  for (int i = 0; i < kDimension<kDegree>; ++i) {
+    const std::array<int, 2> columns = ColumnsOf<kDegree>(i, kShift, kSwaps);
+    for (int k = 0; k < 2; ++k) {
+      if (columns[k] < 0) continue;
+      entries_[i][k] = static_cast<Scalar>(matrix(i, columns[k]));
+      rest(i, columns[k]) = 0;
     }
   }
+  if (rest.cwiseAbs().maxCoeff() > kZero) throw std::logic_error("OrderMatrix: an entry where none is expected");
 }
 
-template <int kDegree>
-const SparseGenerators<kDegree>& SparseGenerators<kDegree>::Instance() {
-  static const SparseGenerators generators;
-  return generators;
+template <int kDegree, typename Scalar>
+const SparseMatrices<kDegree, Scalar>& SparseMatrices<kDegree, Scalar>::Instance() {
+  const auto make = [] {
+    const auto& [x, y, z] = RotationGenerators<kDegree>();
+    const auto& quadrics = Quadrics<kDegree>();
+    return SparseMatrices{Matrix<1, true>(x),           Matrix<1, false>(y),
+                          Matrix<0, true>(z),           Matrix<0, false>(quadrics[0]),
+                          Matrix<1, true>(quadrics[1]), Matrix<1, false>(quadrics[2]),
+                          Matrix<2, true>(quadrics[3]), Matrix<2, false>(quadrics[4])};
+  };
+  static const SparseMatrices matrices = make();
+  return matrices;
 }
 
-template class SparseGenerators<3>;
-template class SparseGenerators<4>;
+template struct SparseMatrices<3, float>;
+template struct SparseMatrices<3, double>;
+template struct SparseMatrices<4, float>;
+template struct SparseMatrices<4, double>;
 
 }  // namespace octupole::internal

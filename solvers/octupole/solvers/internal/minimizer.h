@@ -15,6 +15,8 @@
 #include "octupole/harmonics/harmonics.h"
 #include "octupole/solvers/field_problem.h"
 #include "octupole/solvers/field_solution.h"
+#include "octupole/solvers/internal/minimize_lbfgs.h"
+#include "octupole/solvers/internal/sweep_graph.h"
 #include "octupole/solvers/workers.h"
 
 // The steps that the methods are made of.
@@ -53,8 +55,11 @@ class Minimizer final : public ceres::IterationCallback {
   /// Of the last minimisation, unless an earlier one was ended by the caller.
   ceres::TerminationType termination() const { return termination_; }
 
-  /// MinimizeLbfgs on a function of the vertices of `graph`, with half the graph's weights or so in its edges. Returns
+  /// MinimizeLbfgs on a function of so many vertices, whose edges have half of that sum of weights or so in it. Returns
   /// the energy reached, twice the cost.
+  template <typename Scalar>
+  double Minimize(const SmoothFunction<Scalar>& function, std::size_t num_vertices, double sum_of_weights,
+                  double tolerance, std::vector<Scalar>* x);
   double Minimize(const ceres::FirstOrderFunction& function, const FieldGraph& graph, double tolerance,
                   std::vector<double>* x);
 
@@ -77,21 +82,25 @@ class Minimizer final : public ceres::IterationCallback {
   ceres::TerminationType termination_ = ceres::CONVERGENCE;
 };
 
-/// Minimises the field energy from `field`, which becomes the result, and returns the energy.
+/// Minimises the field energy from `field`, which becomes the result, and returns the energy, as rounded as floats are.
 template <int kDegree>
-double MinimizeField(const FieldGraph& graph, const EnergyWeights& weights, double tolerance, Minimizer* minimizer,
+double MinimizeField(const SweepGraph& graph, const EnergyWeights& weights, double tolerance, Minimizer* minimizer,
                      std::vector<Harmonic<kDegree>>* field);
 
 /// The nearest frames that keep to the alignments.
 template <int kDegree>
-Frames ProjectField(const FieldGraph& graph, const std::vector<Harmonic<kDegree>>& field, Workers* workers);
+Frames ProjectField(const std::vector<Alignment>& alignments, const std::vector<Harmonic<kDegree>>& field,
+                    Workers* workers);
 
-/// Minimises the FrameEnergy from `frames`, which become the result, and returns the energy.
-double PolishFrames(const FieldGraph& graph, Minimizer* minimizer, Frames* frames, double tolerance = kFrameTolerance);
+/// Minimises the FrameEnergy from `frames`, which become the result, and returns the energy, as rounded as floats are.
+double PolishFrames(const SweepGraph& graph, Minimizer* minimizer, Frames* frames, double tolerance = kFrameTolerance);
+
+/// Twice the FrameEnergy of frames.
+double EnergyOfFrames(const SweepGraph& graph, const Frames& frames, Workers* workers);
 
 /// The linear start (see ray_sokolov.h): least squares in degree 4 without penalties, and the nearest frames. Where no
 /// alignment bounds the least squares, the constant comes from a random field.
-Frames LinearFrames(const FieldGraph& graph, double tolerance, std::uint32_t seed, Minimizer* minimizer);
+Frames LinearFrames(const SweepGraph& graph, double tolerance, std::uint32_t seed, Minimizer* minimizer);
 
 template <int kDegree>
 std::vector<Harmonic<kDegree>> HarmonicsOf(const Frames& frames);

@@ -1,29 +1,30 @@
-#include "octupole/solvers/internal/neighbour_lists.h"
+#include "octupole/solvers/internal/sweep_graph.h"
 
 #include <algorithm>
 
 namespace octupole::internal {
 
-NeighbourLists::NeighbourLists(const FieldGraph& graph) {
+SweepGraph::SweepGraph(const FieldGraph& graph) : alignments(graph.alignments), sum_of_weights(SumOfWeights(graph)) {
+  constexpr std::size_t kMaxLanes = 8;
   const std::size_t num_vertices = graph.num_vertices();
-  std::vector<std::size_t> valence(num_vertices, 0);
-  weight_sums.assign(num_vertices, 0);
+  const std::size_t num_rows = (num_vertices + kMaxLanes) / kMaxLanes * kMaxLanes;
+  first_group.assign(num_rows + 1, 0);
+  weight_sums.assign(num_rows, 0);
   bool is_weighted = false;
   for (const WeightedEdge& edge : graph.edges) {
     if (edge.weight == 0) continue;
     is_weighted |= edge.weight != 1;
     for (const int v : {edge.a, edge.b}) {
-      ++valence[v];
+      ++first_group[v + 1];
       weight_sums[v] += edge.weight;
     }
   }
-  first_group.assign(num_vertices + 1, 0);
-  for (std::size_t v = 0; v < num_vertices; ++v) first_group[v + 1] = first_group[v] + (valence[v] + 3) / 4;
-  neighbours.assign(4 * first_group.back(), static_cast<int>(num_vertices));
+  for (std::size_t v = 0; v < num_rows; ++v) first_group[v + 1] = first_group[v] + (first_group[v + 1] + 3) / 4;
+  neighbours.assign(4 * static_cast<std::size_t>(first_group.back()), static_cast<int>(num_vertices));
   if (is_weighted) weights.assign(neighbours.size(), 0);
 
   std::vector<std::size_t> next(num_vertices);
-  for (std::size_t v = 0; v < num_vertices; ++v) next[v] = 4 * first_group[v];
+  for (std::size_t v = 0; v < num_vertices; ++v) next[v] = 4 * static_cast<std::size_t>(first_group[v]);
   const auto add = [&](int from, int to, double weight) {
     const std::size_t slot = next[from]++;
     neighbours[slot] = to;
