@@ -18,7 +18,6 @@ using internal::ForEachDistinct;
 using internal::kTetFaces;
 using internal::kTriangleEdges;
 using internal::Simplex;
-using internal::SortedSimplices;
 using Triangles = std::vector<std::array<int, 3>>;
 
 // See FindInterfaces.
@@ -75,7 +74,7 @@ void Orient(std::size_t num_points, Triangles* triangles) {
     std::array<int, 2> edge;
   };
   std::vector<std::vector<Neighbour>> neighbours_of(triangles->size());
-  ForEachDistinct(SortedSimplices(*triangles, kTriangleEdges, num_points), [&](const Simplex<2>& edge, int count) {
+  ForEachDistinct(*triangles, kTriangleEdges, num_points, [&](const Simplex<2>& edge, int count) {
     if (count != 2) return;
     const int one = (&edge)[0].cell, other = (&edge)[1].cell;
     neighbours_of[one].push_back({other, edge.vertices});
@@ -133,7 +132,7 @@ Interfaces FindInterfaces(const TetMesh& mesh, const std::vector<std::array<int,
       break;
     }
   };
-  ForEachDistinct(SortedSimplices(mesh.tets, kTetFaces, mesh.points.size()), visit);
+  ForEachDistinct(mesh.tets, kTetFaces, mesh.points.size(), visit);
 
   const auto judge = [&](const Triangles& faces, InnerFaces* inner) {
     inner->count = faces.size();

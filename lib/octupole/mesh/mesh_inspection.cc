@@ -13,7 +13,6 @@ namespace {
 
 using internal::ForEachDistinct;
 using internal::Simplex;
-using internal::SortedSimplices;
 
 /// The magnitude up to which six times a tetrahedron's volume may be rounding error.
 double VolumeTolerance(const TetMesh& mesh, const std::array<int, 4>& tet) {
@@ -88,17 +87,17 @@ void InspectVertices(const TetMesh& mesh, MeshInspection* result) {
 void InspectNeighbours(const TetMesh& mesh, MeshInspection* result) {
   const std::size_t num_points = mesh.points.size();
   constexpr std::array<std::array<int, 4>, 1> kTetItself = {{{0, 1, 2, 3}}};
-  ForEachDistinct(SortedSimplices(mesh.tets, kTetItself, num_points),
+  ForEachDistinct(mesh.tets, kTetItself, num_points,
                   [&](const Simplex<4>&, int count) { result->duplicate_tets += count - 1; });
 
   std::vector<std::array<int, 3>> boundary;
-  ForEachDistinct(SortedSimplices(mesh.tets, internal::kTetFaces, num_points), [&](const Simplex<3>& face, int count) {
+  ForEachDistinct(mesh.tets, internal::kTetFaces, num_points, [&](const Simplex<3>& face, int count) {
     result->overfull_triangles += count > 2;
     if (count == 1) {
       boundary.push_back(face.vertices);
     }
   });
-  ForEachDistinct(SortedSimplices(boundary, internal::kTriangleEdges, num_points),
+  ForEachDistinct(boundary, internal::kTriangleEdges, num_points,
                   [&](const Simplex<2>&, int count) { result->non_manifold_boundary_edges += count != 2; });
 }
 

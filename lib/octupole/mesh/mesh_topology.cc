@@ -13,7 +13,6 @@ using internal::ForEachDistinct;
 using internal::kTetEdges;
 using internal::kTetFaces;
 using internal::Simplex;
-using internal::SortedSimplices;
 
 double SixfoldVolume(const TetMesh& mesh, const std::array<int, 4>& tet) {
   const Eigen::Vector3d& a = mesh.points[tet[0]];
@@ -41,16 +40,16 @@ std::array<int, 3> OutwardFace(const TetMesh& mesh, const Simplex<3>& face) {
 }  // namespace
 
 std::vector<std::array<int, 2>> MeshEdges(const TetMesh& mesh) {
-  return DistinctVertices(SortedSimplices(mesh.tets, kTetEdges, mesh.points.size()));
+  return DistinctVertices(mesh.tets, kTetEdges, mesh.points.size());
 }
 
 std::vector<std::array<int, 3>> MeshTriangles(const TetMesh& mesh) {
-  return DistinctVertices(SortedSimplices(mesh.tets, kTetFaces, mesh.points.size()));
+  return DistinctVertices(mesh.tets, kTetFaces, mesh.points.size());
 }
 
 std::vector<std::array<int, 3>> BoundaryTriangles(const TetMesh& mesh) {
   std::vector<std::array<int, 3>> boundary;
-  ForEachDistinct(SortedSimplices(mesh.tets, kTetFaces, mesh.points.size()), [&](const Simplex<3>& face, int count) {
+  ForEachDistinct(mesh.tets, kTetFaces, mesh.points.size(), [&](const Simplex<3>& face, int count) {
     if (count == 1) {
       boundary.push_back(OutwardFace(mesh, face));
     }

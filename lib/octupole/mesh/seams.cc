@@ -61,7 +61,7 @@ std::vector<std::array<int, 2>> FindSeams(const TetMesh& mesh, const std::vector
     if (TriangleNormal(mesh.points, one).dot(TriangleNormal(mesh.points, other)) < min_cosine) return;
     seams.push_back(edge.vertices);
   };
-  internal::ForEachDistinct(internal::SortedSimplices(triangles, internal::kTriangleEdges, mesh.points.size()), visit);
+  internal::ForEachDistinct(triangles, internal::kTriangleEdges, mesh.points.size(), visit);
   return seams;
 }
 

@@ -37,7 +37,7 @@ void CheckTriangleMesh(const TriangleMesh& mesh) {
 }
 
 std::vector<std::array<int, 2>> MeshEdges(const TriangleMesh& mesh) {
-  return internal::DistinctVertices(SortedSimplices(mesh.triangles, kTriangleEdges, mesh.points.size()));
+  return internal::DistinctVertices(mesh.triangles, kTriangleEdges, mesh.points.size());
 }
 
 std::vector<std::array<int, 2>> OpenEdges(const TriangleMesh& mesh) {
@@ -48,7 +48,7 @@ std::vector<std::array<int, 2>> OpenEdges(const TriangleMesh& mesh) {
     const int side = SideOf(triangle, edge.vertices);
     edges.push_back({triangle[side], triangle[(side + 1) % 3]});
   };
-  ForEachDistinct(SortedSimplices(mesh.triangles, kTriangleEdges, mesh.points.size()), visit);
+  ForEachDistinct(mesh.triangles, kTriangleEdges, mesh.points.size(), visit);
   return edges;
 }
 

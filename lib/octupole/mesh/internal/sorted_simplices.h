@@ -72,14 +72,68 @@ void ForEachDistinct(const std::vector<Simplex<N>>& sorted, const Visit& visit) 
   }
 }
 
-/// The vertices of each distinct simplex of a sorted list.
-template <std::size_t N>
-std::vector<std::array<int, N>> DistinctVertices(const std::vector<Simplex<N>>& sorted) {
-  std::size_t num_distinct = 0;
-  ForEachDistinct(sorted, [&](const Simplex<N>&, int) { ++num_distinct; });
+/// The same for the simplices `pattern` (each ascending) of all cells, in the order in which SortedSimplices lists
+/// them, but without the list: those of one smallest vertex at a time, equal ones by their cells.
+template <std::size_t N, std::size_t M, std::size_t K, typename Visit>
+void ForEachDistinct(const std::vector<std::array<int, M>>& cells, const std::array<std::array<int, N>, K>& pattern,
+                     std::size_t num_points, const Visit& visit) {
+  // A simplex begins with one of so many smallest vertices of its cell.
+  std::size_t num_smallest = 0;
+  for (const std::array<int, N>& corners : pattern) {
+    num_smallest = std::max(num_smallest, static_cast<std::size_t>(corners[0]) + 1);
+  }
+  const auto sorted = [](std::array<int, M> cell) {
+    for (std::size_t i = 0; i < M; ++i) {
+      for (std::size_t j = i + 1; j < M; ++j) {
+        const int smaller = std::min(cell[i], cell[j]);
+        cell[j] = std::max(cell[i], cell[j]);
+        cell[i] = smaller;
+      }
+    }
+    return cell;
+  };
+  // The cells of each vertex that is one of those.
+  std::vector<std::size_t> end(num_points + 1, 0);
+  for (const std::array<int, M>& cell : cells) {
+    const std::array<int, M> vertices = sorted(cell);
+    for (std::size_t i = 0; i < num_smallest; ++i) ++end[vertices[i] + 1];
+  }
+  for (std::size_t v = 0; v < num_points; ++v) end[v + 1] += end[v];
+  std::vector<int> cells_of(end.back());
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    const std::array<int, M> vertices = sorted(cells[c]);
+    for (std::size_t i = 0; i < num_smallest; ++i) cells_of[end[vertices[i]]++] = static_cast<int>(c);
+  }
+  std::vector<Simplex<N>> simplices;
+  for (std::size_t v = 0, next = 0; v < num_points; ++v) {
+    simplices.clear();
+    for (; next < end[v]; ++next) {
+      const std::array<int, M> vertices = sorted(cells[cells_of[next]]);
+      for (const std::array<int, N>& corners : pattern) {
+        if (vertices[corners[0]] != static_cast<int>(v)) continue;
+        Simplex<N>& simplex = simplices.emplace_back();
+        for (std::size_t i = 0; i < N; ++i) simplex.vertices[i] = vertices[corners[i]];
+        simplex.cell = cells_of[next];
+      }
+    }
+    std::sort(simplices.begin(), simplices.end(), [](const Simplex<N>& a, const Simplex<N>& b) {
+      for (std::size_t i = 1; i < N; ++i) {
+        if (a.vertices[i] != b.vertices[i]) return a.vertices[i] < b.vertices[i];
+      }
+      return a.cell < b.cell;
+    });
+    ForEachDistinct(simplices, visit);
+  }
+}
+
+/// The vertices of each distinct simplex of the cells.
+template <std::size_t N, std::size_t M, std::size_t K>
+std::vector<std::array<int, N>> DistinctVertices(const std::vector<std::array<int, M>>& cells,
+                                                 const std::array<std::array<int, N>, K>& pattern,
+                                                 std::size_t num_points) {
   std::vector<std::array<int, N>> distinct;
-  distinct.reserve(num_distinct);
-  ForEachDistinct(sorted, [&](const Simplex<N>& simplex, int) { distinct.push_back(simplex.vertices); });
+  ForEachDistinct(cells, pattern, num_points,
+                  [&](const Simplex<N>& simplex, int) { distinct.push_back(simplex.vertices); });
   return distinct;
 }
 
