@@ -46,6 +46,9 @@ void AddSolverArguments(CLI::App* command, SolverArguments* arguments) {
       ->check(CLI::IsMember({"fast", "cholesky", "cgnr", "lbfgs"}))
       ->option_text("NAME [fast]");
   command->add_option("--seed", arguments->seed, "Of the random start")->option_text("N [0]");
+  command->add_option("--starts", arguments->starts, "That the fast solver tries: more for lower energies")
+      ->check(CLI::Range(1, 1000000))
+      ->option_text("N [5]");
   command->add_option("--threads", arguments->threads, "For the solver")
       ->check(CLI::Range(1, 1024))
       ->option_text("N [1]");
@@ -61,6 +64,7 @@ void SetSolverOptions(const SolverArguments& arguments, ceres::IterationCallback
                       FieldOptions<kDegree>* options) {
   options->seed = arguments.seed;
   options->minimizer.num_threads = arguments.threads;
+  options->minimizer.num_starts = arguments.starts;
   if (arguments.max_iterations) options->minimizer.max_iterations = *arguments.max_iterations;
   options->minimizer.callback = callback;
   if (arguments.verbose) {

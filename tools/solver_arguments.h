@@ -21,6 +21,7 @@ struct SolverArguments {
   /// As on the command line: "fast", or "cholesky", "cgnr" or "lbfgs" of Ceres.
   std::optional<std::string> solver;
   std::uint32_t seed = 0;
+  int starts = 5;
   int threads = 1;
   std::optional<int> max_iterations;
   bool quiet = false;
@@ -31,7 +32,7 @@ struct SolverArguments {
 CLI::Validator AtLeastZero();
 CLI::Validator AboveZero();
 
-/// Adds --degree, --solver, --seed, --threads, --max-iterations, --quiet and --verbose.
+/// Adds --degree, --solver, --seed, --starts, --threads, --max-iterations, --quiet and --verbose.
 void AddSolverArguments(CLI::App* command, SolverArguments* arguments);
 
 /// Sets what they ask for; `callback`, which must outlive the options, is called at every iteration.

@@ -87,6 +87,7 @@ def solve(
     method: str = "penalty",
     feature_angle: float = 40.0,
     seed: int = 0,
+    starts: int = 5,
     threads: int = 1,
     solver: str = "fast",
     max_iterations: Optional[int] = None,
@@ -107,6 +108,7 @@ def solve(
         `degree` says only which of their harmonics are the coefficients.
     feature_angle: degrees between normals, above which an edge of the boundary is a feature; the field follows it.
     seed: of the random starts. The same seed gives the same field.
+    starts: that the solver "fast" tries. More find lower energies, in time in proportion.
     threads: for the solver; the field does not depend on it.
     solver: "fast", or of Ceres "lbfgs", "cgnr" or "cholesky".
     max_iterations: stop there, converged or not.
@@ -141,6 +143,7 @@ def solve(
         feature_angle=feature_angle,
         follow_regions=follow_regions,
         seed=seed,
+        starts=starts,
         threads=threads,
         solver=solver,
         max_iterations=max_iterations,
@@ -160,6 +163,7 @@ def solve_surface(
     feature_angle: float = 40.0,
     boundary: str = "aligned",
     seed: int = 0,
+    starts: int = 5,
     threads: int = 1,
     solver: str = "fast",
     max_iterations: Optional[int] = None,
@@ -194,6 +198,7 @@ def solve_surface(
         feature_angle=feature_angle,
         boundary=boundary,
         seed=seed,
+        starts=starts,
         threads=threads,
         solver=solver,
         max_iterations=max_iterations,
@@ -212,6 +217,7 @@ def solve_graph(
     degree: int = 3,
     method: str = "penalty",
     seed: int = 0,
+    starts: int = 5,
     threads: int = 1,
     solver: str = "fast",
     max_iterations: Optional[int] = None,
@@ -234,6 +240,7 @@ def solve_graph(
         degree=degree,
         method=method,
         seed=seed,
+        starts=starts,
         threads=threads,
         solver=solver,
         max_iterations=max_iterations,

@@ -65,6 +65,7 @@ struct SolveArguments {
   std::optional<bool> follow_regions;
   std::string weights;
   std::uint32_t seed;
+  int starts;
   int threads;
   std::string solver;
   std::optional<int> max_iterations;
@@ -148,6 +149,7 @@ FieldOptions<kDegree> OptionsFrom(const SolveArguments& arguments, Progress* pro
   options.edge_weights = EdgeWeightsOf(arguments.weights);
   options.constraints = arguments.constraints;
   options.seed = arguments.seed;
+  options.minimizer.num_starts = arguments.starts;
   options.minimizer.num_threads = arguments.threads;
   if (arguments.max_iterations) options.minimizer.max_iterations = *arguments.max_iterations;
   options.minimizer.callback = progress;
@@ -497,38 +499,39 @@ void AddFields(py::module_* module) {
   module->def(
       "_solve",
       [](const std::shared_ptr<TetMesh>& mesh, int degree, const std::string& method, double feature_angle,
-         std::optional<bool> follow_regions, const std::string& weights, std::uint32_t seed, int threads,
+         std::optional<bool> follow_regions, const std::string& weights, std::uint32_t seed, int starts, int threads,
          const std::string& solver, std::optional<int> max_iterations, const py::object& constraints,
          const py::object& start, const py::object& callback) {
         return TetField{{Solve(*mesh,
-                               {degree, method, feature_angle, "aligned", follow_regions, weights, seed, threads,
-                                solver, max_iterations, ConstraintsFrom(constraints), start},
+                               {degree, method, feature_angle, "aligned", follow_regions, weights, seed, starts,
+                                threads, solver, max_iterations, ConstraintsFrom(constraints), start},
                                callback)},
                         mesh,
                         nullptr};
       },
       py::arg("mesh"), py::kw_only(), py::arg("degree"), py::arg("method"), py::arg("feature_angle"),
-      py::arg("follow_regions"), py::arg("weights"), py::arg("seed"), py::arg("threads"), py::arg("solver"),
-      py::arg("max_iterations"), py::arg("constraints"), py::arg("start"), py::arg("callback"));
+      py::arg("follow_regions"), py::arg("weights"), py::arg("seed"), py::arg("starts"), py::arg("threads"),
+      py::arg("solver"), py::arg("max_iterations"), py::arg("constraints"), py::arg("start"), py::arg("callback"));
   module->def(
       "_solve_surface",
       [](const std::shared_ptr<SurfaceMesh>& mesh, int degree, const std::string& method, double feature_angle,
-         const std::string& boundary, const std::string& weights, std::uint32_t seed, int threads,
+         const std::string& boundary, const std::string& weights, std::uint32_t seed, int starts, int threads,
          const std::string& solver, std::optional<int> max_iterations, const py::object& constraints,
          const py::object& start, const py::object& callback) {
-        return SurfaceField{{Solve<TriangleMesh>(*mesh,
-                                                 {degree, method, feature_angle, boundary, std::nullopt, weights, seed,
-                                                  threads, solver, max_iterations, ConstraintsFrom(constraints), start},
-                                                 callback)},
-                            mesh};
+        return SurfaceField{
+            {Solve<TriangleMesh>(*mesh,
+                                 {degree, method, feature_angle, boundary, std::nullopt, weights, seed, starts, threads,
+                                  solver, max_iterations, ConstraintsFrom(constraints), start},
+                                 callback)},
+            mesh};
       },
       py::arg("mesh"), py::kw_only(), py::arg("degree"), py::arg("method"), py::arg("feature_angle"),
-      py::arg("boundary"), py::arg("weights"), py::arg("seed"), py::arg("threads"), py::arg("solver"),
-      py::arg("max_iterations"), py::arg("constraints"), py::arg("start"), py::arg("callback"));
+      py::arg("boundary"), py::arg("weights"), py::arg("seed"), py::arg("starts"), py::arg("threads"),
+      py::arg("solver"), py::arg("max_iterations"), py::arg("constraints"), py::arg("start"), py::arg("callback"));
   module->def(
       "_solve_graph",
       [](const py::object& edges, const py::object& weights, const py::object& alignments, int degree,
-         const std::string& method, std::uint32_t seed, int threads, const std::string& solver,
+         const std::string& method, std::uint32_t seed, int starts, int threads, const std::string& solver,
          std::optional<int> max_iterations, const py::object& start, const py::object& callback) {
         const double unused_angle = FieldOptions<3>().feature_angle_deg;
         return AnyField{Solve(GraphFrom(edges, weights, alignments),
@@ -539,6 +542,7 @@ void AddFields(py::module_* module) {
                                std::nullopt,
                                "uniform",
                                seed,
+                               starts,
                                threads,
                                solver,
                                max_iterations,
@@ -547,8 +551,8 @@ void AddFields(py::module_* module) {
                               callback)};
       },
       py::arg("edges"), py::arg("weights"), py::arg("alignments"), py::kw_only(), py::arg("degree"), py::arg("method"),
-      py::arg("seed"), py::arg("threads"), py::arg("solver"), py::arg("max_iterations"), py::arg("start"),
-      py::arg("callback"));
+      py::arg("seed"), py::arg("starts"), py::arg("threads"), py::arg("solver"), py::arg("max_iterations"),
+      py::arg("start"), py::arg("callback"));
 }
 
 }  // namespace octupole::python

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
 #include <stdexcept>
+#include <string>
 
 #include "method_checks.h"
 #include "octupole/field/aligned_frame.h"
@@ -121,6 +123,29 @@ TYPED_TEST(FastSolverTest, PolishesAnEarlierField) {
   EXPECT_THROW(PolishField<l>(graph, {}, {}), std::invalid_argument);
   start[7] *= 2;
   EXPECT_THROW(PolishField<l>(graph, {}, start), std::invalid_argument);
+}
+
+TYPED_TEST(FastSolverTest, TriesAsManyStartsAsItIsToldTo) {
+  constexpr int l = TypeParam::value;
+  const FieldGraph graph = GraphOf(MakeBallMesh(14));
+  MinimizerOptions options;
+  std::set<std::string> names;
+  options.step_callback = [&](const StepSummary& step) {
+    if (step.num_vertices > 0 && step.name.find(" start ") != std::string::npos) names.insert(step.name);
+  };
+  double energy_of_one = 0, energy = 0;
+  for (const int num_starts : {1, 2, 17}) {
+    names.clear();
+    options.num_starts = num_starts;
+    const FieldSolution<l> field = SolveFast<l>(graph, {}, options);
+    EXPECT_EQ(field.termination, ceres::CONVERGENCE);
+    EXPECT_EQ(names.size(), static_cast<std::size_t>(num_starts));
+    energy = FrameEnergyOf(graph, field.frames);
+    if (num_starts == 1) energy_of_one = energy;
+  }
+  EXPECT_LT(energy, 1.005 * energy_of_one);
+  options.num_starts = 0;
+  EXPECT_THROW(SolveFast<l>(graph, {}, options), std::invalid_argument);
 }
 
 // The road of residual blocks, from a random start and to convergence, has nothing better to offer.

@@ -268,7 +268,7 @@ TEST(FieldCommand, SaysBeforeItSolvesThatItCannotWrite) {
 TEST(FieldCommand, RefusesBadUsage) {
   for (const std::string arguments :
        {"", "--degree 5", "--solver magic", "--method magic", "--method huang --solver fast", "--method mbo --degree 3",
-        "--feature-angle 0", "--threads 0", "--seed -1", "--max-iterations -1", "--nonsense"}) {
+        "--feature-angle 0", "--threads 0", "--starts 0", "--seed -1", "--max-iterations -1", "--nonsense"}) {
     const Outcome outcome = RunField(arguments.empty() ? arguments : Bracket() + " " + arguments);
     EXPECT_EQ(outcome.exit_code, 2) << arguments;
     EXPECT_FALSE(outcome.err.empty()) << arguments;

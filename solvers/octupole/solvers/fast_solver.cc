@@ -24,11 +24,13 @@ using internal::PolishFrames;
 using internal::ProjectField;
 using internal::SweepGraph;
 
-// The starts are tried on the finest graph of at most this many vertices, where they cost little.
+// Starts begin on the finest graph of at most this many vertices, where they cost little.
 constexpr std::size_t kMaxStartVertices = 2000;
+constexpr int kRound = 5;
+// Relative difference of energies up to which starts count as one.
+constexpr double kSameEnergy = 1e-4;
 // Graphs are not coarsened below this.
 constexpr std::size_t kMinVertices = 100;
-constexpr int kNumRandomStarts = 3;
 // Relative decrease per iteration at which the minimisation of a field ends.
 constexpr double kFieldTolerance = 1e-4;
 // The same after a local change, which is but a small part of the energy.
@@ -83,44 +85,101 @@ std::vector<Harmonic<kDegree>> Prolongate(const Level& coarse, const std::vector
   return fine;
 }
 
-// The best of several starts, minimised on the graph `start_level`.
+// Brings a field to the finer graph `to`, minimising it on those that it leaves.
 template <int kDegree>
-std::vector<Harmonic<kDegree>> ChooseStart(const std::vector<Level>& levels, std::size_t start_level,
-                                           std::uint32_t seed, Minimizer* minimizer) {
-  const SweepGraph& graph = levels[start_level].graph;
-  std::vector<std::vector<Harmonic<kDegree>>> starts;
-  std::vector<std::string> names = {"linear start"};
-  minimizer->BeginStep(names[0]);
-  starts.push_back(internal::HarmonicsOf<kDegree>(internal::LinearFrames(graph, kFieldTolerance, seed, minimizer)));
-  for (int i = 0; i < kNumRandomStarts; ++i) {
-    names.push_back("random start " + std::to_string(i + 1));
-    starts.push_back(RandomField<kDegree>(graph.alignments, seed * kNumRandomStarts + i));
+void Refine(const std::vector<Level>& levels, std::size_t from, std::size_t to, Minimizer* minimizer,
+            std::vector<Harmonic<kDegree>>* field) {
+  for (std::size_t level = from; level > to; --level) {
+    MinimizeField<kDegree>(levels[level].graph, levels[level].weights, kFieldTolerance, minimizer, field);
+    *field = Prolongate<kDegree>(levels[level], *field);
   }
-  if (start_level + 1 < levels.size()) {
-    std::size_t level = levels.size() - 1;
-    names.push_back("coarse start");
-    minimizer->BeginStep(names.back());
-    std::vector<Harmonic<kDegree>> field = RandomField<kDegree>(levels[level].graph.alignments, seed);
-    for (; level > start_level; --level) {
-      MinimizeField<kDegree>(levels[level].graph, levels[level].weights, kFieldTolerance, minimizer, &field);
-      field = Prolongate<kDegree>(levels[level], field);
-    }
-    starts.push_back(std::move(field));
+}
+
+// Start number `i` on the graph `level`, in rounds of five: the linear one, three random ones and one from the coarsest
+// graph. In later rounds the first and the third are found in the other degree, whose minima are others.
+template <int kDegree>
+std::vector<Harmonic<kDegree>> MakeStart(const std::vector<Level>& levels, std::size_t level, int i, std::uint32_t seed,
+                                         Minimizer* minimizer, std::string* name) {
+  constexpr int kOther = 7 - kDegree;
+  constexpr std::uint32_t kSeedsApart = 1000003;
+  const SweepGraph& graph = levels[level].graph;
+  const int round = i / kRound, place = i % kRound;
+  seed += static_cast<std::uint32_t>(round) * kSeedsApart;
+  const std::uint32_t random_seed = 3 * seed + static_cast<std::uint32_t>(place) - 1;
+  const auto begin = [&](const std::string& kind) {
+    *name = kind + " start " + std::to_string(i + 1);
+    minimizer->BeginStep(*name);
+  };
+  if (i == 0) {
+    begin("linear");
+    return internal::HarmonicsOf<kDegree>(internal::LinearFrames(graph, kFieldTolerance, seed, minimizer));
   }
-  double lowest = std::numeric_limits<double>::infinity();
-  std::size_t best = 0;
-  for (std::size_t i = 0; i < starts.size(); ++i) {
-    std::vector<Harmonic<kDegree>>& field = starts[i];
-    minimizer->BeginStep(names[i]);
-    MinimizeField<kDegree>(graph, levels[start_level].weights, kFieldTolerance, minimizer, &field);
-    Frames frames = ProjectField<kDegree>(graph.alignments, field, minimizer->workers());
-    const double energy = PolishFrames(graph, minimizer, &frames);
-    if (energy >= lowest) continue;
-    lowest = energy;
-    best = i;
+  if (place == kRound - 1 && level + 1 < levels.size()) {
+    begin("coarse");
+    std::vector<Harmonic<kDegree>> field = RandomField<kDegree>(levels.back().graph.alignments, seed);
+    Refine<kDegree>(levels, levels.size() - 1, level, minimizer, &field);
+    return field;
   }
-  minimizer->Tell(names[best] + " chosen");
-  return std::move(starts[best]);
+  if (round > 0 && place % 2 == 0) {
+    begin("degree " + std::to_string(kOther));
+    std::vector<Harmonic<kOther>> field = RandomField<kOther>(graph.alignments, random_seed);
+    MinimizeField<kOther>(graph, levels[level].weights, kFieldTolerance, minimizer, &field);
+    return internal::HarmonicsOf<kDegree>(ProjectField<kOther>(graph.alignments, field, minimizer->workers()));
+  }
+  begin("random");
+  return RandomField<kDegree>(graph.alignments, random_seed);
+}
+
+// A field, and its frames.
+template <int kDegree>
+struct Solved {
+  std::string name;
+  std::vector<Harmonic<kDegree>> field;
+  Frames frames;
+  /// Of the frames.
+  double energy = 0;
+};
+
+// Minimises from `field`, and polishes the frames. Not where the minimiser fails.
+template <int kDegree>
+void Solve(const Level& level, Minimizer* minimizer, Solved<kDegree>* solved) {
+  minimizer->BeginStep(solved->name.empty() ? "field" : solved->name);
+  MinimizeField<kDegree>(level.graph, level.weights, kFieldTolerance, minimizer, &solved->field);
+  if (minimizer->termination() == ceres::FAILURE) return;
+  solved->frames = ProjectField<kDegree>(level.graph.alignments, solved->field, minimizer->workers());
+  minimizer->BeginStep(solved->name.empty() ? "frames" : solved->name);
+  solved->energy = PolishFrames(level.graph, minimizer, &solved->frames);
+}
+
+template <int kDegree>
+void SolveAll(const Level& level, Minimizer* minimizer, std::vector<Solved<kDegree>>* starts) {
+  for (Solved<kDegree>& start : *starts) Solve(level, minimizer, &start);
+  std::stable_sort(starts->begin(), starts->end(), [](const auto& a, const auto& b) { return a.energy < b.energy; });
+}
+
+// The best of several starts on the finest graph that is small enough, `level`. A coarse graph tells badly which is the
+// best: the better half goes on to the next finer graph, which `level` becomes, if it is more than one. Starts of the
+// same energy have most likely ended in the same field, and count once.
+template <int kDegree>
+Solved<kDegree> ChooseStart(const std::vector<Level>& levels, const MinimizerOptions& options, Minimizer* minimizer,
+                            std::size_t* level) {
+  *level = 0;
+  while (*level + 1 < levels.size() && levels[*level].graph.num_vertices() > kMaxStartVertices) ++*level;
+  std::vector<Solved<kDegree>> starts(options.num_starts);
+  for (int i = 0; i < options.num_starts; ++i) {
+    starts[i].field = MakeStart<kDegree>(levels, *level, i, options.seed, minimizer, &starts[i].name);
+  }
+  SolveAll(levels[*level], minimizer, &starts);
+  const auto is_same = [](const auto& a, const auto& b) { return b.energy - a.energy <= kSameEnergy * a.energy; };
+  starts.erase(std::unique(starts.begin(), starts.end(), is_same), starts.end());
+  starts.resize(std::min(starts.size(), std::max<std::size_t>(1, static_cast<std::size_t>(options.num_starts) / 2)));
+  if (*level > 0 && starts.size() > 1) {
+    for (Solved<kDegree>& start : starts) start.field = Prolongate<kDegree>(levels[*level], start.field);
+    --*level;
+    SolveAll(levels[*level], minimizer, &starts);
+  }
+  minimizer->Tell(starts[0].name + " chosen");
+  return std::move(starts[0]);
 }
 
 // Of the coefficients, in doubles.
@@ -133,28 +192,19 @@ double EnergyOf(const SweepGraph& graph, const EnergyWeights& weights, const std
   return 2 * cost;
 }
 
-// Solves on the finest graph, `original` in the order of `order`, from `field`, and gives the result in the caller's
-// order.
+// What was found on the finest graph, `original` in the order of `order`, in the caller's order.
 template <int kDegree>
-FieldSolution<kDegree> Finish(const FieldGraph& original, const SweepGraph& graph, const std::vector<int>& order,
-                              const EnergyWeights& weights, std::vector<Harmonic<kDegree>> field,
-                              Minimizer* minimizer) {
+FieldSolution<kDegree> MakeSolution(const FieldGraph& original, const Level& finest, const std::vector<int>& order,
+                                    const Solved<kDegree>& solved, Minimizer* minimizer) {
   FieldSolution<kDegree> result;
   result.size = SizeOfProblem(original, kUnknownsOfKind<kDegree>);
-  minimizer->BeginStep("field");
-  MinimizeField<kDegree>(graph, weights, kFieldTolerance, minimizer, &field);
-  const bool is_converged = minimizer->termination() == ceres::CONVERGENCE;
   result.termination = minimizer->termination();
   if (result.termination == ceres::FAILURE) return result;
-  result.energy = EnergyOf<kDegree>(graph, weights, field, minimizer->workers());
-  Frames frames = ProjectField<kDegree>(graph.alignments, field, minimizer->workers());
-  minimizer->BeginStep("frames");
-  PolishFrames(graph, minimizer, &frames);
-  if (is_converged) result.termination = minimizer->termination();
+  result.energy = EnergyOf<kDegree>(finest.graph, finest.weights, solved.field, minimizer->workers());
   result.iterations = minimizer->iterations();
   const Frames rest = internal::AllowedFrames(original);
-  result.coefficients = internal::InOriginalOrder(order, field, internal::HarmonicsOf<kDegree>(rest));
-  result.frames = internal::InOriginalOrder(order, frames, rest);
+  result.coefficients = internal::InOriginalOrder(order, solved.field, internal::HarmonicsOf<kDegree>(rest));
+  result.frames = internal::InOriginalOrder(order, solved.frames, rest);
   return result;
 }
 
@@ -164,18 +214,26 @@ template <int kDegree>
 FieldSolution<kDegree> SolveFast(const FieldGraph& graph, const EnergyWeights& weights,
                                  const MinimizerOptions& options) {
   CheckProblem(graph, weights);
+  if (options.num_starts < 1) {
+    throw std::invalid_argument("SolveFast: num_starts must be at least 1, not " + std::to_string(options.num_starts));
+  }
   Minimizer minimizer(options);
   const std::vector<int> order = BreadthFirstOrder(graph);
   const std::vector<Level> levels = MakeHierarchy(graph, order, weights);
   std::size_t level = 0;
-  while (level + 1 < levels.size() && levels[level].graph.num_vertices() > kMaxStartVertices) ++level;
-  std::vector<Harmonic<kDegree>> field = ChooseStart<kDegree>(levels, level, options.seed, &minimizer);
-  minimizer.BeginStep("level");
-  for (; level > 0; --level) {
-    MinimizeField<kDegree>(levels[level].graph, levels[level].weights, kFieldTolerance, &minimizer, &field);
-    field = Prolongate<kDegree>(levels[level], field);
+  Solved<kDegree> solved = ChooseStart<kDegree>(levels, options, &minimizer, &level);
+  if (level > 0) {
+    minimizer.BeginStep("level");
+    solved.field = Prolongate<kDegree>(levels[level], solved.field);
+    Refine<kDegree>(levels, level - 1, 0, &minimizer, &solved.field);
+    solved.name.clear();
+    Solve(levels[0], &minimizer, &solved);
+  } else if (minimizer.termination() != ceres::FAILURE) {
+    // Further than it takes to compare.
+    minimizer.BeginStep("frames");
+    PolishFrames(levels[0].graph, &minimizer, &solved.frames);
   }
-  return Finish<kDegree>(graph, levels[0].graph, order, weights, std::move(field), &minimizer);
+  return MakeSolution(graph, levels[0], order, solved, &minimizer);
 }
 
 template <int kDegree>
@@ -185,10 +243,12 @@ FieldSolution<kDegree> SolveFastFrom(const FieldGraph& graph, const EnergyWeight
   CheckField<kDegree>("SolveFastFrom", graph, start);
   Minimizer minimizer(options);
   const std::vector<int> order = BreadthFirstOrder(graph);
-  std::vector<Harmonic<kDegree>> field;
-  field.reserve(order.size());
-  for (const int v : order) field.push_back(start[v]);
-  return Finish<kDegree>(graph, SweepGraph(Reorder(graph, order)), order, weights, std::move(field), &minimizer);
+  const Level level = {SweepGraph(Reorder(graph, order)), {}, weights};
+  Solved<kDegree> solved;
+  solved.field.reserve(order.size());
+  for (const int v : order) solved.field.push_back(start[v]);
+  Solve(level, &minimizer, &solved);
+  return MakeSolution(graph, level, order, solved, &minimizer);
 }
 
 template <int kDegree>
