@@ -22,7 +22,6 @@
 #include "octupole/io/mesh_io.h"
 #include "octupole/io/singularity_writer.h"
 #include "octupole/mesh/mesh_inspection.h"
-#include "octupole/mesh/mesh_topology.h"
 #include "octupole/singularities/singular_curves.h"
 #include "octupole/singularities/surface_singularities.h"
 #include "octupole/solvers/field_solver.h"
@@ -183,7 +182,7 @@ void RunField(const Arguments& arguments) {
   nlohmann::ordered_json interface_report = DescribeInterfaces(interfaces);
   interface_report.update(DescribeAlignment(field.alignment.interface_vertices));
   interface_report["max_error_deg"] = MeasureNormals(mesh.points, interfaces.triangles, field.frames).max_deg;
-  const auto boundary = BoundaryTriangles(mesh);
+  const auto& boundary = field.alignment.boundary_triangles;
   const auto singular_triangles = FindSingularTriangles(mesh, field.frames);
   const FieldQuality quality = MeasureField(mesh, field.frames, singular_triangles, boundary);
   const SingularCurves curves = TraceSingularCurves(mesh, field.frames, singular_triangles);

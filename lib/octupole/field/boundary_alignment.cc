@@ -131,6 +131,7 @@ BoundaryAlignment AlignToSurface(const TriangleMesh& surface, double feature_ang
 BoundaryAlignment AlignToBoundary(const TetMesh& mesh, const BoundaryOptions& options) {
   CheckFeatureAngle(options.feature_angle_deg);
   TriangleMesh surface = BoundarySurface(mesh);
+  auto boundary_triangles = surface.triangles;
   Interfaces interfaces = FindInterfaces(mesh, surface.triangles, options.regions, options.feature_angle_deg);
   surface.triangles.insert(surface.triangles.end(), interfaces.triangles.begin(), interfaces.triangles.end());
   const auto seams = FindSeams(mesh, surface.triangles, options.feature_angle_deg);
@@ -140,6 +141,7 @@ BoundaryAlignment AlignToBoundary(const TetMesh& mesh, const BoundaryOptions& op
   }
   std::vector<SurfaceCase> cases;
   BoundaryAlignment result = AlignVertices(surface, options.feature_angle_deg, OpenBoundary::kAligned, &cases);
+  result.boundary_triangles = std::move(boundary_triangles);
   result.num_seam_edges = seams.size();
   std::vector<bool> is_on_interface(mesh.points.size(), false);
   for (const std::array<int, 3>& triangle : interfaces.triangles) {

@@ -32,6 +32,8 @@ struct BoundaryAlignment : AlignmentCounts {
   bool has_marked_features = false;
   std::size_t num_feature_edges = 0;
   // Of a tet mesh:
+  /// BoundaryTriangles of the mesh.
+  std::vector<std::array<int, 3>> boundary_triangles;
   /// Marked edges that are seams (FindSeams), which prescribe nothing and are no feature edges.
   std::size_t num_seam_edges = 0;
   /// The surfaces inside, and of the above the vertices on them.

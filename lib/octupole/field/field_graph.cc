@@ -35,7 +35,8 @@ std::array<double, 6> EdgeStiffness(const std::vector<Eigen::Vector3d>& points, 
   const Eigen::Vector3d a = points[tet[0]] - d, b = points[tet[1]] - d, c = points[tet[2]] - d;
   std::array<Eigen::Vector3d, 4> normals = {b.cross(c), c.cross(a), a.cross(b)};
   normals[3] = -(normals[0] + normals[1] + normals[2]);
-  const double least = kFlattest * std::pow(LongestEdge(points, tet, kTetEdges), 3);
+  const double longest = LongestEdge(points, tet, kTetEdges);
+  const double least = kFlattest * longest * longest * longest;
   const double sixfold_volume = std::max(std::abs(a.dot(normals[0])), least);
   std::array<double, 6> stiffness = {};
   if (sixfold_volume == 0) return stiffness;
@@ -101,7 +102,9 @@ FieldGraph GraphOfMesh(const Mesh& mesh, std::vector<Alignment> alignments, Edge
   FieldGraph graph;
   graph.alignments = std::move(alignments);
   std::vector<bool> has_edge(mesh.points.size(), false);
-  for (const auto& [a, b] : MeshEdges(mesh)) {
+  const auto edges = MeshEdges(mesh);
+  graph.edges.reserve(edges.size());
+  for (const auto& [a, b] : edges) {
     graph.edges.push_back({a, b, 1});
     has_edge[a] = has_edge[b] = true;
   }

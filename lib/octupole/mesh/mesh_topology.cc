@@ -10,7 +10,6 @@ namespace {
 
 using internal::DistinctVertices;
 using internal::ForEachDistinct;
-using internal::kTetEdges;
 using internal::kTetFaces;
 using internal::Simplex;
 
@@ -40,7 +39,7 @@ std::array<int, 3> OutwardFace(const TetMesh& mesh, const Simplex<3>& face) {
 }  // namespace
 
 std::vector<std::array<int, 2>> MeshEdges(const TetMesh& mesh) {
-  return DistinctVertices(mesh.tets, kTetEdges, mesh.points.size());
+  return internal::DistinctEdges(mesh.tets, mesh.points.size());
 }
 
 std::vector<std::array<int, 3>> MeshTriangles(const TetMesh& mesh) {

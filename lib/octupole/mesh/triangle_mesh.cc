@@ -37,7 +37,7 @@ void CheckTriangleMesh(const TriangleMesh& mesh) {
 }
 
 std::vector<std::array<int, 2>> MeshEdges(const TriangleMesh& mesh) {
-  return internal::DistinctVertices(mesh.triangles, kTriangleEdges, mesh.points.size());
+  return internal::DistinctEdges(mesh.triangles, mesh.points.size());
 }
 
 std::vector<std::array<int, 2>> OpenEdges(const TriangleMesh& mesh) {

@@ -9,6 +9,7 @@
 #include "octupole/cost_functions/cost_weight.h"
 #include "octupole/field/aligned_frame.h"
 #include "octupole/field/coarse_graph.h"
+#include "octupole/frames/frame.h"
 #include "octupole/harmonics/rotation.h"
 #include "octupole/solvers/internal/field_function.h"
 #include "octupole/solvers/internal/minimizer.h"
@@ -202,9 +203,11 @@ FieldSolution<kDegree> MakeSolution(const FieldGraph& original, const Level& fin
   if (result.termination == ceres::FAILURE) return result;
   result.energy = EnergyOf<kDegree>(finest.graph, finest.weights, solved.field, minimizer->workers());
   result.iterations = minimizer->iterations();
-  const Frames rest = internal::AllowedFrames(original);
-  result.coefficients = internal::InOriginalOrder(order, solved.field, internal::HarmonicsOf<kDegree>(rest));
-  result.frames = internal::InOriginalOrder(order, solved.frames, rest);
+  result.coefficients = internal::InOriginalOrder(original, order, solved.field, [](const Alignment& alignment) {
+    return HarmonicFromFrame<kDegree>(alignment.frame());
+  });
+  result.frames = internal::InOriginalOrder(original, order, solved.frames,
+                                            [](const Alignment& alignment) { return alignment.frame(); });
   return result;
 }
 

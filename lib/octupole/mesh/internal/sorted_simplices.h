@@ -61,14 +61,80 @@ std::vector<Simplex<N>> SortedSimplices(std::vector<std::array<int, M>> cells,
   return simplices;
 }
 
+/// Whether two simplices have the same vertices; a comparison of arrays would call memcmp.
+template <std::size_t N>
+bool AreSame(const Simplex<N>& a, const Simplex<N>& b) {
+  for (std::size_t i = 0; i < N; ++i) {
+    if (a.vertices[i] != b.vertices[i]) return false;
+  }
+  return true;
+}
+
 /// Calls visit(first simplex, number of equal ones) for each distinct simplex of a sorted list.
 template <std::size_t N, typename Visit>
 void ForEachDistinct(const std::vector<Simplex<N>>& sorted, const Visit& visit) {
   for (std::size_t begin = 0, end = 0; begin < sorted.size(); begin = end) {
-    while (end < sorted.size() && sorted[end].vertices == sorted[begin].vertices) {
+    while (end < sorted.size() && AreSame(sorted[end], sorted[begin])) {
       ++end;
     }
     visit(sorted[begin], static_cast<int>(end - begin));
+  }
+}
+
+template <std::size_t M>
+std::array<int, M> SortedCell(std::array<int, M> cell) {
+  for (std::size_t i = 0; i < M; ++i) {
+    for (std::size_t j = i + 1; j < M; ++j) {
+      const int smaller = std::min(cell[i], cell[j]);
+      cell[j] = std::max(cell[i], cell[j]);
+      cell[i] = smaller;
+    }
+  }
+  return cell;
+}
+
+/// For each point the cells that have it among their so many smallest vertices, in ascending order.
+struct CellsOfPoints {
+  template <std::size_t M>
+  CellsOfPoints(const std::vector<std::array<int, M>>& cells, std::size_t num_points, std::size_t num_smallest)
+      : end(num_points + 1, 0) {
+    for (const std::array<int, M>& cell : cells) {
+      const std::array<int, M> vertices = SortedCell(cell);
+      for (std::size_t i = 0; i < num_smallest; ++i) ++end[vertices[i] + 1];
+    }
+    for (std::size_t v = 0; v < num_points; ++v) end[v + 1] += end[v];
+    list.resize(end.back());
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      const std::array<int, M> vertices = SortedCell(cells[c]);
+      for (std::size_t i = 0; i < num_smallest; ++i) list[end[vertices[i]]++] = static_cast<int>(c);
+    }
+  }
+
+  /// Those of point v end before list[end[v]], where those of v + 1 begin.
+  std::vector<std::size_t> end;
+  std::vector<int> list;
+};
+
+/// Sorts a few simplices that have the smallest vertex in common; equal ones stay in order.
+template <std::size_t N>
+void SortBucket(std::vector<Simplex<N>>* simplices) {
+  const auto is_less = [](const Simplex<N>& a, const Simplex<N>& b) {
+    for (std::size_t i = 1; i < N; ++i) {
+      if (a.vertices[i] != b.vertices[i]) return a.vertices[i] < b.vertices[i];
+    }
+    return false;
+  };
+  constexpr std::size_t kFew = 48;
+  if (simplices->size() > kFew) {
+    std::stable_sort(simplices->begin(), simplices->end(), is_less);
+    return;
+  }
+  for (std::size_t i = 1; i < simplices->size(); ++i) {
+    const Simplex<N> simplex = (*simplices)[i];
+    std::size_t place = i;
+    for (; place > 0 && is_less(simplex, (*simplices)[place - 1]); --place)
+      (*simplices)[place] = (*simplices)[place - 1];
+    (*simplices)[place] = simplex;
   }
 }
 
@@ -82,48 +148,47 @@ void ForEachDistinct(const std::vector<std::array<int, M>>& cells, const std::ar
   for (const std::array<int, N>& corners : pattern) {
     num_smallest = std::max(num_smallest, static_cast<std::size_t>(corners[0]) + 1);
   }
-  const auto sorted = [](std::array<int, M> cell) {
-    for (std::size_t i = 0; i < M; ++i) {
-      for (std::size_t j = i + 1; j < M; ++j) {
-        const int smaller = std::min(cell[i], cell[j]);
-        cell[j] = std::max(cell[i], cell[j]);
-        cell[i] = smaller;
-      }
-    }
-    return cell;
-  };
-  // The cells of each vertex that is one of those.
-  std::vector<std::size_t> end(num_points + 1, 0);
-  for (const std::array<int, M>& cell : cells) {
-    const std::array<int, M> vertices = sorted(cell);
-    for (std::size_t i = 0; i < num_smallest; ++i) ++end[vertices[i] + 1];
-  }
-  for (std::size_t v = 0; v < num_points; ++v) end[v + 1] += end[v];
-  std::vector<int> cells_of(end.back());
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    const std::array<int, M> vertices = sorted(cells[c]);
-    for (std::size_t i = 0; i < num_smallest; ++i) cells_of[end[vertices[i]]++] = static_cast<int>(c);
-  }
+  const CellsOfPoints cells_of(cells, num_points, num_smallest);
   std::vector<Simplex<N>> simplices;
   for (std::size_t v = 0, next = 0; v < num_points; ++v) {
     simplices.clear();
-    for (; next < end[v]; ++next) {
-      const std::array<int, M> vertices = sorted(cells[cells_of[next]]);
+    for (; next < cells_of.end[v]; ++next) {
+      const std::array<int, M> vertices = SortedCell(cells[cells_of.list[next]]);
       for (const std::array<int, N>& corners : pattern) {
         if (vertices[corners[0]] != static_cast<int>(v)) continue;
         Simplex<N>& simplex = simplices.emplace_back();
         for (std::size_t i = 0; i < N; ++i) simplex.vertices[i] = vertices[corners[i]];
-        simplex.cell = cells_of[next];
+        simplex.cell = cells_of.list[next];
       }
     }
-    std::sort(simplices.begin(), simplices.end(), [](const Simplex<N>& a, const Simplex<N>& b) {
-      for (std::size_t i = 1; i < N; ++i) {
-        if (a.vertices[i] != b.vertices[i]) return a.vertices[i] < b.vertices[i];
-      }
-      return a.cell < b.cell;
-    });
+    SortBucket(&simplices);
     ForEachDistinct(simplices, visit);
   }
+}
+
+/// The edges of all cells whose vertices are all joined, each once with the smaller vertex first, in lexicographic
+/// order.
+template <std::size_t M>
+std::vector<std::array<int, 2>> DistinctEdges(const std::vector<std::array<int, M>>& cells, std::size_t num_points) {
+  const CellsOfPoints cells_of(cells, num_points, M - 1);
+  std::vector<std::array<int, 2>> edges;
+  // The last smaller vertex to which each was found to be joined.
+  std::vector<int> last(num_points, -1);
+  std::vector<int> joined;
+  for (std::size_t v = 0, next = 0; v < num_points; ++v) {
+    const int a = static_cast<int>(v);
+    joined.clear();
+    for (; next < cells_of.end[v]; ++next) {
+      for (const int b : cells[cells_of.list[next]]) {
+        if (b <= a || last[b] == a) continue;
+        last[b] = a;
+        joined.push_back(b);
+      }
+    }
+    std::sort(joined.begin(), joined.end());
+    for (const int b : joined) edges.push_back({a, b});
+  }
+  return edges;
 }
 
 /// The vertices of each distinct simplex of the cells.

@@ -36,13 +36,6 @@ double MinimizeInFloats(const SweepGraph& graph, const Minimizer& minimizer, con
 
 }  // namespace
 
-Frames AllowedFrames(const FieldGraph& graph) {
-  Frames frames;
-  frames.reserve(graph.num_vertices());
-  for (const Alignment& alignment : graph.alignments) frames.push_back(alignment.frame());
-  return frames;
-}
-
 template <typename Scalar>
 double Minimizer::Minimize(const SmoothFunction<Scalar>& function, std::size_t num_vertices, double sum_of_weights,
                            double tolerance, std::vector<Scalar>* x) {
@@ -78,7 +71,7 @@ FrameSolution Minimizer::MakeSolution(const FieldGraph& graph, const std::vector
                                       double energy, const ProblemSize& size) const {
   FrameSolution solution;
   solution.termination = termination_;
-  solution.frames = InOriginalOrder(order, frames, AllowedFrames(graph));
+  solution.frames = InOriginalOrder(graph, order, frames, [](const Alignment& alignment) { return alignment.frame(); });
   solution.energy = energy;
   solution.iterations = iterations_;
   solution.size = size;

@@ -27,18 +27,22 @@ using Frames = std::vector<Eigen::Matrix3d>;
 /// Relative decrease per iteration at which frames are polished.
 inline constexpr double kFrameTolerance = 2e-5;
 
-/// Values of the vertices of Reorder(graph, order), in the order of `graph`. What `order` leaves out has those of
-/// `rest`.
-template <typename Value>
-std::vector<Value> InOriginalOrder(const std::vector<int>& order, const std::vector<Value>& values,
-                                   std::vector<Value> rest) {
-  std::vector<Value> result = std::move(rest);
-  for (std::size_t i = 0; i < order.size(); ++i) result[order[i]] = values[i];
+/// Values of the vertices of Reorder(graph, order), in the order of `graph`. What `order` leaves out has the value
+/// rest(alignment).
+template <typename Value, typename Rest>
+std::vector<Value> InOriginalOrder(const FieldGraph& graph, const std::vector<int>& order,
+                                   const std::vector<Value>& values, const Rest& rest) {
+  std::vector<Value> result(graph.num_vertices());
+  std::vector<bool> has_value(graph.num_vertices(), false);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    result[order[i]] = values[i];
+    has_value[order[i]] = true;
+  }
+  for (std::size_t v = 0; v < result.size(); ++v) {
+    if (!has_value[v]) result[v] = rest(graph.alignments[v]);
+  }
   return result;
 }
-
-/// Frames that keep to the alignments, of vertices that have nothing else to go by.
-Frames AllowedFrames(const FieldGraph& graph);
 
 /// Runs the minimisations of one solve: counts their iterations against the limit and passes them on to the caller.
 class Minimizer final : public ceres::IterationCallback {
