@@ -6,7 +6,7 @@ namespace octupole {
 namespace {
 
 // Of the whole command with the fast solver, per vertex of a tet mesh: docs/fast_solver.md, 1 to 6 million vertices.
-constexpr double kBytesPerVertex = 1400;
+constexpr double kBytesPerVertex = 900;
 
 struct Activity {
   std::string what = "starting";
