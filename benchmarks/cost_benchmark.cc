@@ -5,12 +5,17 @@
 #include <ceres/crs_matrix.h>
 #include <ceres/problem.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
 #include "octupole/cost_functions/analytic_deviation_cost.h"
+#include "octupole/cost_functions/analytic_injectivity_cost.h"
+#include "octupole/cost_functions/analytic_map_gradient_cost.h"
 #include "octupole/cost_functions/analytic_smoothness_cost.h"
 #include "octupole/cost_functions/deviation_cost.h"
+#include "octupole/cost_functions/injectivity_cost.h"
+#include "octupole/cost_functions/map_gradient_cost.h"
 #include "octupole/cost_functions/smoothness_cost.h"
 #include "octupole/mesh/box_mesh.h"
 #include "octupole/solvers/field_problem.h"
@@ -55,6 +60,28 @@ void VertexTerms(benchmark::State& state, ceres::CostFunction* (*create)(double)
   Evaluate(&problem, &state);
 }
 
+// Of a map: one block for each tetrahedron, over parameters of the points.
+void TetTerms(benchmark::State& state, ceres::CostFunction* (*create)(const std::array<Eigen::Vector3d, 4>& corners)) {
+  const TetMesh mesh = MakeBoxMesh({12, 12, 12}, {1, 1, 1});
+  std::vector<Eigen::Vector3d> parameters = mesh.points;
+  ceres::Problem problem;
+  for (const auto& [a, b, c, d] : mesh.tets) {
+    problem.AddResidualBlock(create({mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]}), nullptr,
+                             parameters[a].data(), parameters[b].data(), parameters[c].data(), parameters[d].data());
+  }
+  Evaluate(&problem, &state);
+}
+
+template <typename Cost>
+ceres::CostFunction* CreateGradientTerm(const std::array<Eigen::Vector3d, 4>& corners) {
+  return Cost::Create(corners, Eigen::Matrix3d::Identity(), 1, 1);
+}
+
+template <typename Cost>
+ceres::CostFunction* CreateInjectivityTerm(const std::array<Eigen::Vector3d, 4>& corners) {
+  return Cost::Create(corners, 1, 0.1, 1);
+}
+
 template <int kDegree>
 void FieldEnergy(benchmark::State& state) {
   const FieldGraph graph = BoxGraph();
@@ -81,12 +108,24 @@ void Register(const std::string& degree) {
   }
 }
 
+void RegisterMapTerms() {
+  using benchmark::RegisterBenchmark;
+  for (benchmark::internal::Benchmark* registered :
+       {RegisterBenchmark("map gradient autodiff", TetTerms, CreateGradientTerm<MapGradientCost>),
+        RegisterBenchmark("map gradient analytic", TetTerms, CreateGradientTerm<AnalyticMapGradientCost>),
+        RegisterBenchmark("injectivity autodiff", TetTerms, CreateInjectivityTerm<InjectivityCost>),
+        RegisterBenchmark("injectivity analytic", TetTerms, CreateInjectivityTerm<AnalyticInjectivityCost>)}) {
+    registered->ArgName("jacobian")->Arg(0)->Arg(1);
+  }
+}
+
 }  // namespace
 }  // namespace octupole
 
 int main(int argc, char** argv) {
   octupole::Register<3>("degree 3");
   octupole::Register<4>("degree 4");
+  octupole::RegisterMapTerms();
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
 }

@@ -217,7 +217,7 @@ void RunField(const Arguments& arguments) {
       {"alignment", DescribeAlignment(field.alignment)},
       {"features",
        {{"source", field.alignment.has_marked_features ? "marked" : "angle"},
-        {"edges", field.alignment.num_feature_edges},
+        {"edges", field.alignment.feature_edges.size()},
         {"seams", field.alignment.num_seam_edges},
         {"points", mesh.feature_points.size()}}},
       {"interfaces", interface_report},

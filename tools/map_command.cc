@@ -14,6 +14,7 @@
 #include "activity.h"
 #include "interruption.h"
 #include "octupole/io/field_reader.h"
+#include "octupole/io/map_reader.h"
 #include "octupole/io/map_writer.h"
 #include "octupole/io/mesh_io.h"
 #include "octupole/maps/map_obstacles.h"
@@ -21,6 +22,8 @@
 #include "octupole/mesh/mesh_inspection.h"
 #include "octupole/solvers/field_solver.h"
 #include "octupole/solvers/seamless_map.h"
+#include "octupole/view/map_scene.h"
+#include "octupole/view/scene_page.h"
 #include "output_files.h"
 #include "solver_arguments.h"
 
@@ -34,11 +37,17 @@ struct Arguments {
   std::filesystem::path vtu;
   std::filesystem::path markers;
   std::filesystem::path report;
+  std::filesystem::path html;
+  /// An earlier map.
+  std::filesystem::path start;
+  /// If given, it finds the features, whatever the mesh marks.
+  std::optional<double> feature_angle;
   MapOptions options;
   bool quiet = false;
 };
 
-constexpr const char* kObstacleNames[] = {"", "turn", "valence_change", "wedge", "thin_part", "collapsed", "flipped"};
+constexpr const char* kObstacleNames[] = {"",          "turn",      "valence_change", "wedge",
+                                          "thin_part", "collapsed", "flipped",        "released"};
 
 nlohmann::ordered_json DescribeObstacles(const std::vector<MapObstacle>& obstacles) {
   auto list = nlohmann::ordered_json::array();
@@ -75,6 +84,7 @@ std::vector<Eigen::Matrix3d> LoadFrames(const Arguments& arguments, const TetMes
                              " points, but the mesh has " + std::to_string(mesh.points.size()));
   }
   FieldOptions<3> options;
+  if (arguments.feature_angle) options.feature_angle_deg = *arguments.feature_angle;
   options.minimizer.callback = progress;
   options.minimizer.num_threads = arguments.options.num_threads;
   const Field<3> field = SolveField<3>(mesh, options);
@@ -84,23 +94,33 @@ std::vector<Eigen::Matrix3d> LoadFrames(const Arguments& arguments, const TetMes
 
 void RunMap(const Arguments& arguments) {
   std::vector<std::filesystem::path> inputs = TetMeshFiles(arguments.mesh);
-  if (!arguments.field.empty()) inputs.push_back(arguments.field);
+  for (const auto* file : {&arguments.field, &arguments.start}) {
+    if (!file->empty()) inputs.push_back(*file);
+  }
   CheckOutputs(inputs, {{"--output", arguments.output, {".hexex"}},
                         {"--vtu", arguments.vtu, {".vtu"}},
                         {"--markers", arguments.markers, {".vtu"}},
-                        {"--report", arguments.report}});
+                        {"--report", arguments.report},
+                        {"--html", arguments.html, {".html", ".htm"}}});
+  if (!arguments.html.empty()) CheckScenePages();
   const InterruptionGuard guard;
   Progress progress(&guard, arguments.quiet);
   std::vector<std::string> warnings;
   SetActivity("reading " + arguments.mesh.string());
-  const TetMesh mesh = ReadTetMesh(arguments.mesh, &warnings);
+  TetMesh mesh = ReadTetMesh(arguments.mesh, &warnings);
   for (std::string& warning : MeshWarnings(InspectMesh(mesh))) warnings.push_back(std::move(warning));
   if (!arguments.quiet) PrintWarnings(arguments.mesh, warnings);
+  MapOptions options = arguments.options;
+  if (arguments.feature_angle) {
+    options.boundary.feature_angle_deg = *arguments.feature_angle;
+    mesh.feature_edges.clear();
+    mesh.feature_points.clear();
+  }
+  if (!arguments.start.empty()) options.start = ReadHexEx(arguments.start);
   SetActivity("solving", mesh.points.size());
   Stopwatch stopwatch;
   const std::vector<Eigen::Matrix3d> frames = LoadFrames(arguments, mesh, &progress);
   const double field_seconds = stopwatch.Lap();
-  MapOptions options = arguments.options;
   options.callback = &progress;
   const SeamlessMap map = SolveSeamlessMap(mesh, frames, options);
   progress.Finish();
@@ -109,6 +129,12 @@ void RunMap(const Arguments& arguments) {
   const std::vector<MapObstacle> obstacles = FindObstacles(domain, map.flipped);
   WriteHexEx(arguments.output, domain.mesh, map.parameters);
   if (!arguments.vtu.empty()) WriteMapVtu(arguments.vtu, domain.mesh, domain.cut, map.parameters);
+  if (!arguments.html.empty()) {
+    Scene scene = MakeMapScene(arguments.mesh.filename().string(), domain, map.parameters, obstacles,
+                               options.boundary.feature_angle_deg);
+    scene.figures = MapFigures(domain, quality, map.size);
+    WriteScenePage(arguments.html, {scene});
+  }
   if (!arguments.markers.empty()) WriteObstacles(arguments.markers, domain.mesh, obstacles);
 
   std::map<int, int> edges_of_valence;
@@ -122,6 +148,7 @@ void RunMap(const Arguments& arguments) {
       {"tets_after_splitting", domain.mesh.tets.size()},
       {"components", domain.combed.num_components},
       {"warnings", warnings},
+      {"start", arguments.start.string()},
       {"size", map.size},
       {"unknowns", domain.unknowns.num_unknowns},
       {"sheets", domain.sheets.sheets.size()},
@@ -166,7 +193,7 @@ void RunMap(const Arguments& arguments) {
     PrintObstacles(obstacles);
     std::printf("seconds    field %.2f, setup %.2f, linear %.2f, foldovers %.2f\n", field_seconds, map.setup_seconds,
                 map.linear_seconds, map.foldover_seconds);
-    for (const auto* file : {&arguments.output, &arguments.vtu, &arguments.markers}) {
+    for (const auto* file : {&arguments.output, &arguments.vtu, &arguments.markers, &arguments.html}) {
       if (!file->empty()) std::printf("written    %s\n", file->string().c_str());
     }
   }
@@ -194,6 +221,18 @@ void AddMapCommand(CLI::App* app) {
   command->add_option("--vtu", arguments->vtu, "The cut mesh with the parameters, for ParaView")->option_text("F.vtu");
   command->add_option("--markers", arguments->markers, "What stands in the way, as lines and tets")
       ->option_text("F.vtu");
+  command->add_option("--html", arguments->html, "The map's integer grid as a page for the browser")
+      ->option_text("F.html");
+  command
+      ->add_option(
+          "--feature-angle", arguments->feature_angle,
+          "Between normals, above which an edge is a feature; if given, features that the mesh marks are ignored")
+      ->check(CLI::Range(1., 179.))
+      ->option_text("DEG [40]");
+  command
+      ->add_option("--start", arguments->start,
+                   "An earlier map of this mesh to begin with: another H, integers, or more iterations")
+      ->option_text("F.hexex");
   command->add_option("--report", arguments->report, "All figures as JSON")->option_text("F.json");
   command->add_flag("--integer", arguments->options.integer, "Round to an integer-grid map; it may fail and says so");
   command->add_option("--threads", arguments->options.num_threads, "For the solver")

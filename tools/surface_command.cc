@@ -153,7 +153,7 @@ void RunSurface(const Arguments& arguments) {
       {"is_closed", is_closed},
       {"boundary", arguments.open_boundary == OpenBoundary::kAligned ? "aligned" : "free"},
       {"alignment", DescribeAlignment(field.alignment)},
-      {"features", {{"source", "angle"}, {"edges", field.alignment.num_feature_edges}}},
+      {"features", {{"source", "angle"}, {"edges", field.alignment.feature_edges.size()}}},
       {"warnings", warnings},
       {"degree", kDegree},
       {"seed", arguments.solver.seed},

@@ -10,6 +10,8 @@
 #include <stdexcept>
 
 #include "cost_checks.h"
+#include "octupole/cost_functions/analytic_injectivity_cost.h"
+#include "octupole/cost_functions/analytic_map_gradient_cost.h"
 #include "octupole/cost_functions/constant_parameter_cost.h"
 #include "octupole/cost_functions/injectivity_cost.h"
 #include "octupole/cost_functions/map_gradient_cost.h"
@@ -77,6 +79,33 @@ TEST(MapGradientCost, IsFiniteWhereTheMapIsFlatAndRefusesFlatTets) {
   EXPECT_THROW(MapGradientCost::Create(kTet, Eigen::Matrix3d::Identity(), kSize, -1), std::invalid_argument);
 }
 
+TEST(AnalyticMapGradientCost, AgreesWithAutodiffAndNumericDerivatives) {
+  std::mt19937 generator(6);
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::Matrix3d frame = RandomFrame(&generator), jacobian = Eigen::Matrix3d::Random();
+    const std::unique_ptr<ceres::CostFunction> analytic(AnalyticMapGradientCost::Create(kTet, frame, kSize, kWeight));
+    const std::unique_ptr<ceres::CostFunction> autodiff(MapGradientCost::Create(kTet, frame, kSize, kWeight));
+    const auto parameters = RandomVectors(4, &generator);
+    ExpectSame(*analytic, *autodiff, parameters);
+    ExpectJacobiansAreDerivatives(*analytic, parameters);
+    const double energy = kWeight * (jacobian - frame.transpose()).squaredNorm();
+    for (const OctahedralRotation& g : OctahedralGroup()) {
+      const std::unique_ptr<ceres::CostFunction> renamed(
+          AnalyticMapGradientCost::Create(kTet, frame * g.matrix(), kSize, kWeight));
+      const auto image = Image(g.matrix().transpose() * jacobian, RandomVector(&generator));
+      EXPECT_NEAR(Evaluate(*renamed, image).residuals.squaredNorm(), energy, 1e-12);
+    }
+  }
+}
+
+TEST(AnalyticMapGradientCost, IsFiniteWhereTheMapIsFlatAndRefusesBadInput) {
+  const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
+  const std::unique_ptr<ceres::CostFunction> cost(AnalyticMapGradientCost::Create(kTet, identity, kSize, kWeight));
+  ExpectFinite(*cost, Image(Eigen::Matrix3d::Zero(), Eigen::Vector3d::Zero()));
+  EXPECT_THROW(AnalyticMapGradientCost::Create(kTet, identity, 0, 1), std::invalid_argument);
+  EXPECT_THROW(AnalyticMapGradientCost::Create(kTet, identity, kSize, -1), std::invalid_argument);
+}
+
 TEST(TransitionCost, VanishesOnSeamsAndHasTheDerivatives) {
   std::mt19937 generator(2);
   for (const OctahedralRotation& g : OctahedralGroup()) {
@@ -142,6 +171,35 @@ TEST(InjectivityCost, IsFiniteOnFlatAndFlippedTetsAndLeastAtRotations) {
   EXPECT_NEAR(Evaluate(*cost, Image(RandomFrame(&generator), zero)).residuals.squaredNorm(), 5 * kWeight, 1e-6);
   EXPECT_GT(Evaluate(*cost, Image(1.1 * RandomFrame(&generator), zero)).residuals.squaredNorm(), 5 * kWeight);
   EXPECT_THROW(InjectivityCost::Create(kTet, kSize, 0, 1), std::invalid_argument);
+}
+
+TEST(AnalyticInjectivityCost, AgreesWithAutodiffAndNumericDerivatives) {
+  std::mt19937 generator(7);
+  for (const double epsilon : {1., 0.1}) {
+    const std::unique_ptr<ceres::CostFunction> analytic(AnalyticInjectivityCost::Create(kTet, kSize, epsilon, kWeight));
+    const std::unique_ptr<ceres::CostFunction> autodiff(InjectivityCost::Create(kTet, kSize, epsilon, kWeight));
+    for (int i = 0; i < 20; ++i) {
+      const Eigen::Matrix3d jacobian =
+          RandomFrame(&generator) * (Eigen::Matrix3d::Identity() * (i % 2 ? 1 : -1) + 0.3 * Eigen::Matrix3d::Random());
+      const auto parameters = Image(jacobian, RandomVector(&generator));
+      ExpectSame(*analytic, *autodiff, parameters);
+      if (epsilon == 1) ExpectJacobiansAreDerivatives(*analytic, parameters, 1e-6);
+      const double energy = Evaluate(*analytic, parameters).residuals.squaredNorm();
+      EXPECT_NEAR(kWeight * EvaluateFoldoverEnergy(jacobian.squaredNorm(), jacobian.determinant(), epsilon).energy,
+                  energy, 1e-9 * energy);
+      const auto turned = Image(RandomFrame(&generator) * jacobian, RandomVector(&generator));
+      EXPECT_NEAR(Evaluate(*analytic, turned).residuals.squaredNorm(), energy, 1e-9 * energy);
+    }
+  }
+}
+
+TEST(AnalyticInjectivityCost, IsFiniteOnFlatAndFlippedTetsAndRefusesBadInput) {
+  const std::unique_ptr<ceres::CostFunction> cost(AnalyticInjectivityCost::Create(kTet, kSize, 1e-6, kWeight));
+  const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
+  ExpectFinite(*cost, Image(Eigen::Matrix3d::Zero(), zero));
+  ExpectFinite(*cost, Image(-Eigen::Matrix3d::Identity(), zero));
+  EXPECT_THROW(AnalyticInjectivityCost::Create(kTet, kSize, 0, 1), std::invalid_argument);
+  EXPECT_THROW(AnalyticInjectivityCost::Create(kTet, kSize, 1, -1), std::invalid_argument);
 }
 
 }  // namespace

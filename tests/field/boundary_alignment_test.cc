@@ -148,7 +148,7 @@ TEST(AlignToBoundary, FollowsMarkedEdgesOnSmoothFaces) {
   axes << line, Vector3d::UnitZ().cross(line), Vector3d::UnitZ();
   const BoundaryAlignment boundary = AlignToBoundary(mesh);
   EXPECT_TRUE(boundary.has_marked_features);
-  EXPECT_EQ(boundary.num_feature_edges, 2u);
+  EXPECT_EQ(boundary.feature_edges.size(), 2u);
   for (const int v : {from, over, to}) {
     ASSERT_EQ(boundary.alignments[v].kind(), AlignmentKind::kFrame);
     EXPECT_LT(WorstAngle(boundary.alignments[v].frame(), axes), 1e-7);
@@ -160,7 +160,7 @@ TEST(AlignToBoundary, FollowsMarkedEdgesOnSmoothFaces) {
   mesh.feature_edges.clear();
   const BoundaryAlignment by_angle = AlignToBoundary(mesh);
   EXPECT_FALSE(by_angle.has_marked_features);
-  EXPECT_EQ(by_angle.num_feature_edges, 12u * 4u);
+  EXPECT_EQ(by_angle.feature_edges.size(), 12u * 4u);
   EXPECT_EQ(by_angle.alignments[over].kind(), AlignmentKind::kAxis);
 }
 
@@ -272,7 +272,7 @@ TEST(AlignToSurface, SeesNoFeatureAtATriangleOfZeroArea) {
   const TriangleMesh mesh = {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 1, 0}, {1, -1, 0}},
                              {{0, 1, 3}, {1, 2, 3}, {0, 2, 1}, {2, 0, 4}}};
   const BoundaryAlignment alignment = AlignToSurface(mesh, 40, OpenBoundary::kFree);
-  EXPECT_EQ(alignment.num_feature_edges, 0u);
+  EXPECT_EQ(alignment.feature_edges.size(), 0u);
   EXPECT_EQ(alignment.num_normals, 5u);
 }
 

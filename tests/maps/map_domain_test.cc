@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <set>
@@ -151,11 +152,77 @@ TEST(MapUnknowns, KeepSeamsAndBoundary) {
       }
     }
     for (const BoundarySheets::Face& face : domain.sheets.faces) {
-      if (domain.sheets.sheets[face.sheet].is_released) continue;
+      if (face.is_released) continue;
       const double first = at(face.tet, (face.corner + 1) % 4)[face.axis];
       for (int i = 2; i < 4; ++i) EXPECT_NEAR(at(face.tet, (face.corner + i) % 4)[face.axis], first, 1e-9);
     }
   }
+}
+
+// Two regions that meet at x = 2, and a marked line through the middle: on the one x is constant, along the other y and
+// z.
+TEST(MapUnknowns, HoldInterfacesAndFeatures) {
+  TetMesh mesh = MakeBoxMesh({4, 2, 2}, {4, 2, 2});
+  const int plain = MakeMapDomain(mesh, ConstantFrames(mesh)).unknowns.num_unknowns;
+  for (const auto& tet : mesh.tets) {
+    double x = 0;
+    for (const int v : tet) x += mesh.points[v].x() / 4;
+    mesh.regions.push_back(x < 2 ? 3 : 7);
+  }
+  std::vector<int> line;
+  for (int v = 0; v < static_cast<int>(mesh.points.size()); ++v) {
+    if (mesh.points[v].tail<2>() == Eigen::Vector2d(1, 1)) line.push_back(v);
+  }
+  ASSERT_EQ(line.size(), 5u);
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) mesh.feature_edges.push_back({line[i], line[i + 1]});
+  const MapDomain domain = MakeMapDomain(mesh, ConstantFrames(mesh));
+  EXPECT_EQ(domain.mesh.tets.size(), mesh.tets.size());
+  EXPECT_EQ(domain.sheets.sheets.size(), 7u);
+  EXPECT_EQ(domain.unknowns.num_unknowns, plain - 8 - 2 * 4);
+  const std::vector<bool>& is_integer = domain.unknowns.is_integer;
+  EXPECT_EQ(std::count(is_integer.begin(), is_integer.end(), true), 7 + 2);
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::vector<double> y(domain.unknowns.num_unknowns);
+  for (double& value : y) value = uniform(generator);
+  const std::vector<double> u = domain.unknowns.Parameters(y);
+  std::set<double> on_interface, y_on_line, z_on_line;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    for (int i = 0; i < 4; ++i) {
+      const auto parameter = [&](int direction) {
+        int axis;  // whatever it is called
+        domain.combed.frames[t].row(direction).cwiseAbs().maxCoeff(&axis);
+        return std::abs(u[3 * domain.cut.nodes[t][i] + axis]);
+      };
+      const Eigen::Vector3d& p = mesh.points[mesh.tets[t][i]];
+      if (p.x() == 2) on_interface.insert(parameter(0));
+      if (p.tail<2>() == Eigen::Vector2d(1, 1)) {
+        y_on_line.insert(parameter(1));
+        z_on_line.insert(parameter(2));
+      }
+    }
+  }
+  EXPECT_EQ(on_interface.size(), 1u);
+  EXPECT_EQ(y_on_line.size(), 1u);
+  EXPECT_EQ(z_on_line.size(), 1u);
+  BoundaryOptions ignored;
+  ignored.regions = RegionUse::kIgnore;
+  EXPECT_EQ(MakeMapDomain(mesh, ConstantFrames(mesh), ignored).sheets.sheets.size(), 6u);
+}
+
+// A triangle of the bottom between two edges of one crease has all corners on the front, too: it would be flat, unless
+// the edge across is split.
+TEST(MapDomain, SplitsChordsOfCreases) {
+  TetMesh mesh;
+  mesh.points = {{0, 0, 0}, {1, -0.1, 0}, {2, 0, 0}, {1, 2, 0}, {1, 0.1, 1}};
+  mesh.tets = {{0, 1, 2, 4}, {0, 2, 3, 4}};
+  BoundaryOptions no_features;
+  no_features.feature_angle_deg = 179;
+  const MapDomain domain = MakeMapDomain(mesh, ConstantFrames(mesh), no_features);
+  EXPECT_TRUE(domain.collapsed.empty());
+  EXPECT_TRUE(domain.released_vertices.empty());
+  EXPECT_NEAR(VolumeOf(domain.mesh), VolumeOf(mesh), 1e-12);
+  for (const auto& [a, b] : domain.rings.vertices) EXPECT_FALSE(a == 0 && b == 2);
 }
 
 TEST(MapDomain, SplitsKeepVolumeOrientationAndParents) {

@@ -26,7 +26,7 @@ ROOMS = {
     "field": ["singularities"] + SHAPES,
     "maps": ["field", "singularities"] + SHAPES,
     "io": ["maps", "field", "singularities"] + SHAPES,
-    "view": ["io", "field", "singularities"] + SHAPES,
+    "view": ["io", "maps", "field", "singularities"] + SHAPES,
     "adaptors": ["io", "field", "singularities"] + SHAPES,
     "cost_functions": ["maps", "field", "frames"] + MATHEMATICS,
     "solvers": ["cost_functions", "maps", "field", "singularities"] + SHAPES,

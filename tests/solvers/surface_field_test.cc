@@ -98,7 +98,7 @@ TEST(AlignToSurface, GivesOpenBoundariesTheirTangents) {
   const BoundaryAlignment aligned = AlignToSurface(square);
   EXPECT_EQ(aligned.num_frames, 12u);
   EXPECT_EQ(aligned.num_normals, 13u) << "inside, and at the four corners";
-  EXPECT_EQ(aligned.num_feature_edges, 0u);
+  EXPECT_EQ(aligned.feature_edges.size(), 0u);
   // An inner vertex of a slanted side.
   EXPECT_NEAR((aligned.alignments[10].frame().transpose() * Vector3d(1, 1, 0)).cwiseAbs().maxCoeff(), std::sqrt(2.),
               1e-12);

@@ -2,8 +2,8 @@
 
 export interface Kind { name: string; color: string; }
 interface Points { points: string; }
-export interface SurfaceData extends Points { name: string; isSolid: boolean; triangles: string; }
-export interface LinesData extends Points { name: string; segments: string; }
+export interface SurfaceData extends Points { name: string; isSolid: boolean; isOnlyOnCut: boolean; triangles: string; }
+export interface LinesData extends Points { name: string; isCut: boolean; segments: string; }
 export interface LabelledData extends Points { kind: number; label: string; }
 interface Shares { largest: number; shares: string; }
 export interface BoxesData extends Points {

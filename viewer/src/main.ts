@@ -90,6 +90,7 @@ class Viewer {
     this.isSoftware = isSoftwareRendered();
     this.renderer = new THREE.WebGLRenderer({ canvas: this.canvas, antialias: !this.isSoftware });
     this.renderer.autoClear = false;
+    this.renderer.localClippingEnabled = true;
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, this.canvas);
     this.controls.screenSpacePanning = true;
@@ -117,6 +118,7 @@ class Viewer {
   }
 
   private makePanel(): void {
+    element("frame-choices").hidden = !this.panes.some((pane) => pane.boxes.length > 0);
     for (const pane of this.panes) add(element("titles"), "div", pane.data.title);
     const shown = new Set(this.panes.flatMap((pane) => pane.names()));
     for (const name of shown) {

@@ -28,6 +28,7 @@ export class Pane {
   readonly countOfKind: number[];
   private readonly surfaces: Surface[] = [];
   private readonly lines: THREE.LineSegments[] = [];
+  private readonly cutLines: THREE.LineSegments[] = [];
   private readonly ofKind: THREE.Object3D[][];
   private readonly labelled: Labelled[] = [];
   private readonly materials = new Map<string, THREE.Material[]>();
@@ -40,8 +41,8 @@ export class Pane {
     const radius = 0.0042 * Math.max(extent.x, extent.y, extent.z);
     this.kinds = data.kinds;
 
-    for (const { name, isSolid, points, triangles } of data.surfaces) {
-      const surface = new Surface(name, isSolid, positions(points), indicesOf(triangles), extent.length());
+    for (const { name, isSolid, isOnlyOnCut, points, triangles } of data.surfaces) {
+      const surface = new Surface(name, isSolid, isOnlyOnCut, positions(points), indicesOf(triangles), extent.length());
       this.surfaces.push(surface);
       this.scene.add(...surface.objects);
     }
@@ -52,6 +53,7 @@ export class Pane {
       const drawn = new THREE.LineSegments(geometry, new THREE.LineBasicMaterial());
       drawn.name = lines.name;
       this.lines.push(drawn);
+      if (lines.isCut) this.cutLines.push(drawn);
       this.scene.add(drawn);
     }
     this.boxes = data.boxes.map((boxes) => new Boxes(world, data, boxes));
@@ -117,6 +119,11 @@ export class Pane {
   /** The half of `plane` to which its normal points is kept; without a plane all is. */
   cutBy(plane: THREE.Plane | null): void {
     for (const surface of this.surfaces) surface.cutBy(plane);
+    for (const lines of this.cutLines) {
+      const material = lines.material as THREE.LineBasicMaterial;
+      material.clippingPlanes = plane ? [plane] : [];
+      material.needsUpdate = true;
+    }
   }
 
   show(isCut: boolean, mode: SurfaceMode, themeName: string): void {

@@ -15,8 +15,8 @@ export class Surface {
   private readonly contour: THREE.LineSegments;
   private readonly heights: Float32Array;
 
-  constructor(readonly name: string, private readonly isSolid: boolean, private readonly points: Float32Array,
-              private readonly triangles: Uint32Array, private readonly extent: number) {
+  constructor(readonly name: string, private readonly isSolid: boolean, private readonly isOnlyOnCut: boolean,
+              private readonly points: Float32Array, private readonly triangles: Uint32Array, private readonly extent: number) {
     const offset = { side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 };
     const position = new THREE.BufferAttribute(points, 3);
     const half = (material: THREE.Material) => {
@@ -134,8 +134,9 @@ export class Surface {
     this.kept.renderOrder = look.isGlass ? 4 : 0;
     (this.cap.material as THREE.MeshBasicMaterial).color.set(look.cap);
     (this.contour.material as THREE.LineBasicMaterial).color.set(look.line);
-    this.kept.visible = look.isShown;
-    this.ghost.visible = this.contour.visible = look.isShown && isCut;
+    this.kept.visible = look.isShown && !this.isOnlyOnCut;
+    this.ghost.visible = this.kept.visible && isCut;
+    this.contour.visible = look.isShown && isCut;
     this.fan.visible = this.cap.visible = look.isShown && isCut && this.isSolid && !look.isGlass;
   }
 }

@@ -14,6 +14,14 @@
 
 namespace octupole {
 
+/// \throw std::invalid_argument naming the class unless epsilon is above 0 and finite.
+inline double PositiveEpsilon(const char* cost, double epsilon) {
+  if (epsilon > 0 && std::isfinite(epsilon)) return epsilon;
+  std::ostringstream message;
+  message << cost << ": epsilon must be above 0 and finite, not " << epsilon;
+  throw std::invalid_argument(message.str());
+}
+
 /// Keeps a map from turning a tetrahedron over, and turns it back if it does: the regularised foldover-free energy of
 /// Garanzha and others (foldover_energy.h) as least squares,
 ///
@@ -26,12 +34,9 @@ namespace octupole {
 class InjectivityCost {
  public:
   InjectivityCost(const std::array<Eigen::Vector3d, 4>& corners, double size, double epsilon, double weight)
-      : gradients_(HatGradients(corners, size)), epsilon_(epsilon), root_(RootOfWeight("InjectivityCost", weight)) {
-    if (epsilon > 0 && std::isfinite(epsilon)) return;
-    std::ostringstream message;
-    message << "InjectivityCost: epsilon must be above 0 and finite, not " << epsilon;
-    throw std::invalid_argument(message.str());
-  }
+      : gradients_(HatGradients(corners, size)),
+        epsilon_(PositiveEpsilon("InjectivityCost", epsilon)),
+        root_(RootOfWeight("InjectivityCost", weight)) {}
 
   /// \throw std::invalid_argument as HatGradients, or when epsilon is not above 0 or `weight` negative or not finite.
   static ceres::CostFunction* Create(const std::array<Eigen::Vector3d, 4>& corners, double size, double epsilon,

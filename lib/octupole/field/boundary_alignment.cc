@@ -61,9 +61,9 @@ BoundaryAlignment AlignVertices(const TriangleMesh& surface, double feature_angl
   const auto corners_of = SurfaceCorners(points, surface.triangles);
   BoundaryAlignment result;
   result.has_marked_features = !surface.feature_edges.empty();
-  auto edges =
+  result.feature_edges =
       result.has_marked_features ? surface.feature_edges : SharpEdges(points, surface.triangles, feature_angle_deg);
-  result.num_feature_edges = edges.size();
+  auto edges = result.feature_edges;
   if (open_boundary == OpenBoundary::kAligned) {
     const std::vector<std::array<int, 2>> open_edges = OpenEdges(surface);
     edges.insert(edges.end(), open_edges.begin(), open_edges.end());

@@ -28,9 +28,9 @@ struct AlignmentCounts {
 struct BoundaryAlignment : AlignmentCounts {
   /// One per point; those off the surface are free, but for marked edges.
   std::vector<Alignment> alignments;
-  /// Whether features were marked, or found by their angle; and how many feature edges there are.
+  /// Whether features were marked, or found by their angle; and the feature edges.
   bool has_marked_features = false;
-  std::size_t num_feature_edges = 0;
+  std::vector<std::array<int, 2>> feature_edges;
   // Of a tet mesh:
   /// BoundaryTriangles of the mesh.
   std::vector<std::array<int, 3>> boundary_triangles;

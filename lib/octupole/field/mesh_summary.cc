@@ -28,7 +28,7 @@ MeshSummary SummarizeMesh(const TetMesh& mesh) {
   auto surface = boundary;
   surface.insert(surface.end(), summary.interfaces.triangles.begin(), summary.interfaces.triangles.end());
   summary.seams = FindSeams(mesh, surface).size();
-  summary.sharp_edges = AlignToSurface({mesh.points, boundary}).num_feature_edges;
+  summary.sharp_edges = AlignToSurface({mesh.points, boundary}).feature_edges.size();
 
   const std::vector<double> ratios = MeanRatios(mesh);
   const auto [least, largest] = std::minmax_element(ratios.begin(), ratios.end());

@@ -3,9 +3,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "octupole/maps/edge_turns.h"
 #include "octupole/maps/internal/union_find.h"
+#include "octupole/mesh/tet_neighbours.h"
 
 namespace octupole {
 namespace {
@@ -24,18 +26,56 @@ Eigen::Vector3d AreaNormal(const TetMesh& mesh, int tet, int corner) {
   return (mesh.points[v[b]] - mesh.points[v[a]]).cross(mesh.points[v[c]] - mesh.points[v[a]]);
 }
 
-// The interior angle between two boundary faces at their edge, from the first to the last step of its ring.
-double InteriorAngle(const TetMesh& mesh, const EdgeRings& rings, std::size_t ring) {
-  const EdgeRings::Step &first = rings.steps[rings.begin[ring]], &last = rings.steps[rings.begin[ring + 1] - 1];
-  const Eigen::Vector3d& a = mesh.points[rings.vertices[ring][0]];
-  const Eigen::Vector3d edge = (mesh.points[rings.vertices[ring][1]] - a).normalized();
-  const auto across = [&](int vertex) -> Eigen::Vector3d {
-    const Eigen::Vector3d d = mesh.points[vertex] - a;
-    return d - d.dot(edge) * edge;
-  };
-  const Eigen::Vector3d from = across(mesh.tets[first.tet][first.out]), to = across(mesh.tets[last.tet][last.in]);
-  const double angle = std::atan2(edge.dot(from.cross(to)), from.dot(to)) * kDegreesPerRadian;
-  return angle < 0 ? angle + 360 : angle;
+// Steps of a ring from one face of a sheet, through which the first enters, to the next, through which the last leaves.
+struct Sector {
+  const EdgeRings& rings;
+  std::size_t ring;
+  std::vector<std::size_t> steps;
+
+  const EdgeRings::Step& first() const { return rings.steps[steps.front()]; }
+  const EdgeRings::Step& last() const { return rings.steps[steps.back()]; }
+
+  OctahedralRotation Turn(const MatchedFrames& matched) const {
+    OctahedralRotation turn;
+    for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
+      turn = turn * matched.match(rings.steps[steps[i]].tet, rings.steps[steps[i]].out);
+    }
+    return turn;
+  }
+
+  // Between the two faces.
+  double AngleDeg(const TetMesh& mesh) const {
+    const Eigen::Vector3d& a = mesh.points[rings.vertices[ring][0]];
+    const Eigen::Vector3d edge = (mesh.points[rings.vertices[ring][1]] - a).normalized();
+    const auto across = [&](int vertex) -> Eigen::Vector3d {
+      const Eigen::Vector3d d = mesh.points[vertex] - a;
+      return d - d.dot(edge) * edge;
+    };
+    const Eigen::Vector3d from = across(mesh.tets[first().tet][first().out]),
+                          to = across(mesh.tets[last().tet][last().in]);
+    const double angle = std::atan2(edge.dot(from.cross(to)), from.dot(to)) * kDegreesPerRadian;
+    return angle < 0 ? angle + 360 : angle;
+  }
+};
+
+// What the faces of sheets divide a ring into; nothing where there is but one such face.
+template <typename IsFace>
+std::vector<Sector> SectorsOf(const EdgeRings& rings, std::size_t ring, const IsFace& is_face) {
+  const std::size_t begin = rings.begin[ring], size = rings.begin[ring + 1] - begin;
+  const auto enters = [&](std::size_t i) { return is_face(rings.steps[i].tet, rings.steps[i].in); };
+  std::size_t start = 0;
+  if (rings.is_closed[ring]) {
+    while (start < size && !enters(begin + start)) ++start;
+    if (start == size) return {};
+  }
+  std::vector<Sector> sectors;
+  for (std::size_t k = 0; k < size; ++k) {
+    const std::size_t i = begin + (start + k) % size;
+    if (k == 0 || enters(i)) sectors.push_back({rings, ring, {}});
+    sectors.back().steps.push_back(i);
+  }
+  if (rings.is_closed[ring] && sectors.size() == 1) return {};
+  return sectors;
 }
 
 struct Meeting {
@@ -46,35 +86,59 @@ struct Meeting {
 
 }  // namespace
 
-BoundarySheets FindBoundarySheets(const TetMesh& mesh, const MatchedFrames& matched, const EdgeRings& rings) {
+BoundarySheets FindBoundarySheets(const TetMesh& mesh, const MatchedFrames& matched, const EdgeRings& rings,
+                                  const std::vector<std::array<bool, 4>>& is_interface,
+                                  const std::set<int>& released_vertices) {
   BoundarySheets result;
   std::vector<double> areas;
+  // From either side of an interface.
   std::vector<std::array<int, 4>> face_of(mesh.tets.size(), {-1, -1, -1, -1});
   for (int t = 0; t < static_cast<int>(mesh.tets.size()); ++t) {
     for (int i = 0; i < 4; ++i) {
-      if (matched.neighbours[t][i] >= 0) continue;
+      const int s = matched.neighbours[t][i];
+      if (face_of[t][i] >= 0 || (s >= 0 && !is_interface[t][i])) continue;
       const Eigen::Vector3d normal = AreaNormal(mesh, t, i), in_frame = matched.frames[t].transpose() * normal;
       int axis;
       in_frame.cwiseAbs().maxCoeff(&axis);
       face_of[t][i] = static_cast<int>(result.faces.size());
-      result.faces.push_back({t, i, axis, in_frame[axis] < 0 ? -1 : 1, 0});
+      if (s >= 0) face_of[s][CornerAcross(mesh, matched.neighbours, t, i)] = face_of[t][i];
+      result.faces.push_back({t, i, axis, in_frame[axis] < 0 ? -1 : 1, 0, false});
       areas.push_back(0.5 * normal.norm());
     }
   }
+  const auto is_face = [&](int t, int i) { return face_of[t][i] >= 0; };
+  // The axis that points out of a tetrahedron, and its sign.
+  const auto outward = [&](int t, int i) -> std::pair<int, int> {
+    const Face& face = result.faces[face_of[t][i]];
+    if (face.tet == t) return {face.axis, face.sign};
+    // e_k becomes g^T e_k across the face, and out of one is into the other.
+    const OctahedralRotation& g = matched.match(face.tet, face.corner);
+    return {g.axis[face.axis], -g.sign[face.axis] * face.sign};
+  };
   internal::UnionFind sheets(static_cast<int>(result.faces.size()));
   std::vector<Meeting> meetings;
   for (std::size_t r = 0; r < rings.size(); ++r) {
-    if (rings.is_closed[r]) continue;
-    const EdgeRings::Step &first = rings.steps[rings.begin[r]], &last = rings.steps[rings.begin[r + 1] - 1];
-    const int f = face_of[first.tet][first.in], g = face_of[last.tet][last.out];
-    // The first face's axis e_k becomes turn^T e_k in the last frame.
-    const OctahedralRotation turn = TurnAround(matched, rings, r);
-    const Face &one = result.faces[f], &other = result.faces[g];
-    if (turn.axis[one.axis] != other.axis) continue;
-    if (turn.sign[one.axis] * one.sign == other.sign) {
-      sheets.Unite(f, g);
-    } else if (const double angle = InteriorAngle(mesh, rings, r); angle < 180) {
-      meetings.push_back({rings.vertices[r], angle, {f, g}});
+    const std::vector<Sector> sectors = SectorsOf(rings, r, is_face);
+    for (std::size_t i = 0; i < sectors.size(); ++i) {
+      Sector sector = {rings, r, {}};
+      // To the next face, and beyond it to others: a sheet may go on behind one that it meets.
+      for (std::size_t j = i; j < sectors.size(); ++j) {
+        sector.steps.insert(sector.steps.end(), sectors[j].steps.begin(), sectors[j].steps.end());
+        const EdgeRings::Step &first = sector.first(), &last = sector.last();
+        const int f = face_of[first.tet][first.in], g = face_of[last.tet][last.out];
+        if (f == g) continue;
+        const auto [axis, sign] = outward(first.tet, first.in);
+        const auto [other_axis, other_sign] = outward(last.tet, last.out);
+        // The first face's axis e_k becomes turn^T e_k in the last frame.
+        const OctahedralRotation turn = sector.Turn(matched);
+        if (turn.axis[axis] != other_axis) {
+          if (j == i) result.creases.push_back(rings.vertices[r]);
+        } else if (turn.sign[axis] * sign == other_sign) {
+          sheets.Unite(f, g);
+        } else if (const double angle = sector.AngleDeg(mesh); j == i && angle < 180) {
+          meetings.push_back({rings.vertices[r], angle, {f, g}});
+        }
+      }
     }
   }
   std::vector<int> sheet_of_root(result.faces.size(), -1);
@@ -97,6 +161,12 @@ BoundarySheets FindBoundarySheets(const TetMesh& mesh, const MatchedFrames& matc
       released = t;
     result.sheets[released].is_released = true;
     result.wedges.push_back({meeting.vertices, meeting.angle_deg, released});
+  }
+  for (Face& face : result.faces) {
+    face.is_released = result.sheets[face.sheet].is_released;
+    for (int k = 0; k < 4; ++k) {
+      face.is_released = face.is_released || (k != face.corner && released_vertices.count(mesh.tets[face.tet][k]) > 0);
+    }
   }
   return result;
 }

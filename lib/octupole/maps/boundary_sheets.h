@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <set>
 #include <vector>
 
 #include "octupole/maps/combed_frames.h"
@@ -9,11 +10,12 @@
 
 namespace octupole {
 
-/// The boundary, divided into the sheets that a map flattens: on each face the parameter of the axis nearest to the
-/// normal is constant, and on a sheet all those are one. Faces are of one sheet across an edge at which the outward
-/// axis goes on as it is.
+/// The boundary and the interfaces inside, divided into the sheets that a map flattens: on each face the parameter of
+/// the axis nearest to the normal is constant, and on a sheet all those are one. Faces are of one sheet across an edge
+/// at which the outward axis goes on as it is.
 struct BoundarySheets {
   struct Face {
+    /// Of an interface, one of the two.
     int tet;
     /// Opposite the face.
     int corner;
@@ -21,10 +23,12 @@ struct BoundarySheets {
     int axis;
     int sign;
     int sheet;
+    /// No parameter is held constant on it: its sheet is released, or one of its vertices.
+    bool is_released;
   };
   struct Sheet {
     double area = 0;
-    /// Its parameters are not held constant.
+    /// No parameter is held constant on it, because of a wedge.
     bool is_released = false;
   };
   /// An edge where two sheets of one parameter meet at less than a straight angle: it and all between them would be
@@ -38,11 +42,17 @@ struct BoundarySheets {
   std::vector<Face> faces;
   std::vector<Sheet> sheets;
   std::vector<Wedge> wedges;
+  /// Edges at which the outward axes of the two sides differ.
+  std::vector<std::array<int, 2>> creases;
 };
 
 /// Finds the sheets, and releases at each wedge, from the sharpest to the bluntest, the sheet of the smaller area,
 /// unless one of the two is released already.
 /// \param mesh satisfies CheckTetMesh(), all its tetrahedra of positive volume.
-BoundarySheets FindBoundarySheets(const TetMesh& mesh, const MatchedFrames& matched, const EdgeRings& rings);
+/// \param is_interface of the face opposite each corner, whether it is one inside; the same on both of its sides.
+/// \param released_vertices whose faces hold no parameter constant.
+BoundarySheets FindBoundarySheets(const TetMesh& mesh, const MatchedFrames& matched, const EdgeRings& rings,
+                                  const std::vector<std::array<bool, 4>>& is_interface,
+                                  const std::set<int>& released_vertices);
 
 }  // namespace octupole

@@ -9,25 +9,13 @@
 namespace octupole {
 namespace {
 
-// The corner opposite the face of the neighbour that is the face of `tet` opposite `corner`.
-int SameFace(const TetMesh& mesh, const MatchedFrames& matched, int tet, int corner) {
-  const int neighbour = matched.neighbours[tet][corner];
-  for (int i = 0; i < 3; ++i) {
-    if (matched.neighbours[neighbour][i] != tet) continue;
-    bool is_same = true;
-    for (int k = 0; k < 4; ++k) is_same = is_same && (k == corner || mesh.tets[tet][k] != mesh.tets[neighbour][i]);
-    if (is_same) return i;
-  }
-  return 3;
-}
-
 std::uint8_t ShortIndex(const OctahedralRotation& g) { return static_cast<std::uint8_t>(IndexOf(g)); }
 
 }  // namespace
 
 void MatchedFrames::SetMatch(const TetMesh& mesh, int tet, int corner, const OctahedralRotation& match) {
   matches[tet][corner] = ShortIndex(match);
-  matches[neighbours[tet][corner]][SameFace(mesh, *this, tet, corner)] = ShortIndex(match.Inverse());
+  matches[neighbours[tet][corner]][CornerAcross(mesh, neighbours, tet, corner)] = ShortIndex(match.Inverse());
 }
 
 MatchedFrames MatchTets(const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& tet_frames) {
@@ -72,7 +60,7 @@ CombedFrames CombFrames(const TetMesh& mesh, const MatchedFrames& matched) {
         // F_t g ~ F_s, so F_t r ~ F_s g^-1 r.
         renamed[s] = matched.match(t, i).Inverse() * renamed[t];
         combed.frames[s] *= renamed[s].matrix();
-        combed.is_in_tree[t][i] = combed.is_in_tree[s][SameFace(mesh, combed, t, i)] = true;
+        combed.is_in_tree[t][i] = combed.is_in_tree[s][CornerAcross(mesh, combed.neighbours, t, i)] = true;
         queue.push_back(s);
       }
     }

@@ -40,4 +40,23 @@ std::vector<SingularEdge> FindSingularEdges(const TetMesh& mesh, const MatchedFr
   return edges;
 }
 
+std::map<int, int> CarryAxis(const TetMesh& mesh, const MatchedFrames& matched, const EdgeRings& rings,
+                             const SingularEdge& edge, int v) {
+  std::map<int, int> axis_in;
+  if (edge.valence == 0) return axis_in;
+  const int first = rings.steps[rings.begin[edge.ring]].tet;
+  QuarterAxis(TurnAround(matched, rings, edge.ring)).cwiseAbs().maxCoeff(&axis_in[first]);
+  std::vector<int> queue = {first};
+  for (std::size_t next = 0; next < queue.size(); ++next) {
+    const int t = queue[next];
+    for (int i = 0; i < 4; ++i) {
+      const int s = matched.neighbours[t][i];
+      if (s < 0 || mesh.tets[t][i] == v || axis_in.count(s) > 0) continue;
+      axis_in[s] = matched.match(t, i).axis[axis_in[t]];
+      queue.push_back(s);
+    }
+  }
+  return axis_in;
+}
+
 }  // namespace octupole

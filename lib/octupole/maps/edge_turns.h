@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <map>
 #include <vector>
 
 #include "octupole/frames/octahedral_group.h"
@@ -30,5 +31,11 @@ struct SingularEdge {
 
 /// All of them, in the order of the rings.
 std::vector<SingularEdge> FindSingularEdges(const TetMesh& mesh, const MatchedFrames& matched, const EdgeRings& rings);
+
+/// The axis of a singular edge with a quarter turn in every tetrahedron at one of its vertices, v, if it is the only
+/// one there. Matches take an axis from one tetrahedron to the next; it does not matter on which way, as the turn
+/// around the edge leaves its own axis alone.
+std::map<int, int> CarryAxis(const TetMesh& mesh, const MatchedFrames& matched, const EdgeRings& rings,
+                             const SingularEdge& edge, int v);
 
 }  // namespace octupole

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <iterator>
 #include <map>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -87,6 +88,7 @@ std::vector<MapObstacle> FindValenceChanges(const MapDomain& domain) {
 std::vector<MapObstacle> FindThinParts(const MapDomain& domain) {
   std::vector<Eigen::Vector3d> outward(domain.mesh.points.size(), Eigen::Vector3d::Zero());
   for (const BoundarySheets::Face& face : domain.sheets.faces) {
+    if (domain.combed.neighbours[face.tet][face.corner] >= 0) continue;  // an interface
     for (int k = 0; k < 4; ++k) {
       if (k == face.corner) continue;
       outward[domain.mesh.tets[face.tet][k]] += face.sign * domain.combed.frames[face.tet].col(face.axis);
@@ -143,6 +145,10 @@ std::string MapObstacle::Describe() const {
       line << tets.size() << (tets.size() == 1 ? " tetrahedron" : " tetrahedra") << " within " << size
            << ", turned over or flattened";
       break;
+    case ObstacleKind::kReleased:
+      line << "the boundary faces of " << tets.size() << (tets.size() == 1 ? " tetrahedron" : " tetrahedra")
+           << " within " << size << " hold no parameter constant: no map does that and does not flatten what is below";
+      break;
   }
   line << "; at " << place.x() << " " << place.y() << " " << place.z();
   return line.str();
@@ -176,6 +182,11 @@ std::vector<MapObstacle> FindObstacles(const MapDomain& domain, const std::vecto
     if (!std::binary_search(domain.collapsed.begin(), domain.collapsed.end(), t)) others.push_back(t);
   }
   append(GroupTets(domain.mesh, ObstacleKind::kFlipped, others));
+  std::set<int> released;
+  for (const BoundarySheets::Face& face : domain.sheets.faces) {
+    if (face.is_released && !domain.sheets.sheets[face.sheet].is_released) released.insert(face.tet);
+  }
+  append(GroupTets(domain.mesh, ObstacleKind::kReleased, {released.begin(), released.end()}));
   return obstacles;
 }
 

@@ -17,6 +17,7 @@ enum class ObstacleKind : std::uint8_t {
   kThinPart = 4,       ///< edges inside from one side of the boundary to the other: a part one tetrahedron thick
   kCollapsed = 5,      ///< tetrahedra that are flat in every map
   kFlipped = 6,        ///< tetrahedra that the map turns over or flattens
+  kReleased = 7,       ///< tetrahedra at the boundary on whose faces no parameter is held constant
 };
 
 /// What stands in the way of a map at one place: all of a kind that hangs together.

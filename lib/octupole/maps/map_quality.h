@@ -12,6 +12,12 @@ namespace octupole {
 /// Three parameters for each corner of each tetrahedron.
 using CornerParameters = std::vector<std::array<Eigen::Vector3d, 4>>;
 
+/// A map and the mesh that it is of.
+struct MeshMap {
+  TetMesh mesh;
+  CornerParameters parameters;
+};
+
 /// What a map does to volumes and lengths.
 struct MapQuality {
   /// Tetrahedra turned over or flat, and their share of the volume.

@@ -14,33 +14,62 @@
 namespace octupole {
 namespace {
 
-// Which vertices are on which sheets that are held flat, in ascending order.
-class VertexSheets {
+using Edge = std::array<int, 2>;
+
+Edge Sorted(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+
+// Which vertices and edges are on which sheets that are held flat, in ascending order.
+class SheetsAt {
  public:
-  VertexSheets(const TetMesh& mesh, const BoundarySheets& sheets) : sheets_(mesh.points.size()) {
+  SheetsAt(const TetMesh& mesh, const BoundarySheets& sheets) : of_vertex_(mesh.points.size()) {
     for (const BoundarySheets::Face& face : sheets.faces) {
-      if (sheets.sheets[face.sheet].is_released) continue;
+      if (face.is_released) continue;
       for (int k = 0; k < 4; ++k) {
         if (k == face.corner) continue;
-        std::vector<int>& list = sheets_[mesh.tets[face.tet][k]];
+        std::vector<int>& list = of_vertex_[mesh.tets[face.tet][k]];
         const auto place = std::lower_bound(list.begin(), list.end(), face.sheet);
         if (place == list.end() || *place != face.sheet) list.insert(place, face.sheet);
       }
+      for (int k = 0; k < 4; ++k) {
+        for (int l = 0; l < k; ++l) {
+          if (k != face.corner && l != face.corner) {
+            in_edge_.insert({Sorted(mesh.tets[face.tet][k], mesh.tets[face.tet][l]), face.sheet});
+          }
+        }
+      }
+      faces_.insert(SortedFace(mesh.tets[face.tet], face.corner));
     }
   }
 
-  bool ShareOne(const std::vector<int>& vertices) const {
-    for (const int sheet : sheets_[vertices[0]]) {
-      const bool all = std::all_of(vertices.begin() + 1, vertices.end(), [&](int v) {
-        return std::binary_search(sheets_[v].begin(), sheets_[v].end(), sheet);
-      });
-      if (all) return true;
+  // Whether an edge has both ends on a sheet without lying in it.
+  bool IsChord(int a, int b) const {
+    for (const int sheet : of_vertex_[a]) {
+      if (IsOn(b, sheet) && in_edge_.count({Sorted(a, b), sheet}) == 0) return true;
+    }
+    return false;
+  }
+
+  // Whether a face has all corners on a sheet, but is none of it.
+  bool IsFlatFace(const std::array<int, 4>& tet, int corner) const {
+    const std::array<int, 3> face = SortedFace(tet, corner);
+    for (const int sheet : of_vertex_[face[0]]) {
+      if (IsOn(face[1], sheet) && IsOn(face[2], sheet) && faces_.count(face) == 0) return true;
     }
     return false;
   }
 
  private:
-  std::vector<std::vector<int>> sheets_;
+  static std::array<int, 3> SortedFace(const std::array<int, 4>& tet, int corner) {
+    std::array<int, 3> face = {tet[(corner + 1) % 4], tet[(corner + 2) % 4], tet[(corner + 3) % 4]};
+    std::sort(face.begin(), face.end());
+    return face;
+  }
+
+  bool IsOn(int v, int sheet) const { return std::binary_search(of_vertex_[v].begin(), of_vertex_[v].end(), sheet); }
+
+  std::vector<std::vector<int>> of_vertex_;
+  std::set<std::pair<Edge, int>> in_edge_;
+  std::set<std::array<int, 3>> faces_;
 };
 
 // The frame between two, whichever way their axes are ordered and pointed.
@@ -53,6 +82,7 @@ Eigen::Matrix3d MeanFrame(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
 class Splitter {
  public:
   explicit Splitter(FramedMesh* framed) : framed_(*framed), tets_of_(framed->mesh.points.size()) {
+    for (const auto& [a, b] : framed_.mesh.feature_edges) features_.insert(Sorted(a, b));
     for (int t = 0; t < static_cast<int>(tets().size()); ++t) {
       for (const int v : tets()[t]) tets_of_[v].push_back(t);
     }
@@ -71,8 +101,12 @@ class Splitter {
       ReplaceCorner(half, a, m);
       ReplaceCorner(t, b, m);
       // Between them.
-      MatchAt(half, b) = MatchAt(t, a) = 0;
+      JoinAt(half, b);
+      JoinAt(t, a);
     }
+    if (features_.erase(Sorted(a, b)) == 0) return;
+    features_.insert(Sorted(a, m));
+    features_.insert(Sorted(b, m));
   }
 
   void SplitFace(int t, int s, const std::array<int, 3>& face) {
@@ -82,12 +116,15 @@ class Splitter {
       ReplaceCorner(whole, face[0], m);
       ReplaceCorner(one, face[1], m);
       ReplaceCorner(two, face[2], m);
-      MatchAt(whole, face[1]) = MatchAt(whole, face[2]) = MatchAt(one, face[0]) = MatchAt(one, face[2]) = 0;
-      MatchAt(two, face[0]) = MatchAt(two, face[1]) = 0;
+      for (const auto& [tet, own] : {std::pair(whole, 0), std::pair(one, 1), std::pair(two, 2)}) {
+        for (int k = 0; k < 3; ++k) {
+          if (k != own) JoinAt(tet, face[k]);
+        }
+      }
     }
   }
 
-  /// Gives the tetrahedra left at v its frame; what they match across the faces opposite v is for Rematch.
+  /// Gives the tetrahedra left at v its frame; what they match across the faces opposite v is for Finish.
   void SplitAround(int v) {
     std::vector<int> others;
     for (const int t : tets_of_[v]) {
@@ -105,8 +142,10 @@ class Splitter {
     }
   }
 
-  /// Matches anew what SplitAround changed.
-  void Rematch() {
+  /// Matches anew what SplitAround changed, and hands the features back.
+  void Finish() {
+    framed_.mesh.feature_edges.assign(features_.begin(), features_.end());
+    if (reframed_.empty()) return;
     framed_.matched.neighbours = TetNeighbours(framed_.mesh);
     for (const auto& [t, v] : reframed_) {
       const int corner = CornerOf(tets()[t], v), s = framed_.matched.neighbours[t][corner];
@@ -117,7 +156,13 @@ class Splitter {
   }
 
  private:
-  std::uint8_t& MatchAt(int t, int opposite) { return framed_.matched.matches[t][CornerOf(tets()[t], opposite)]; }
+  // A face between parts of one tetrahedron.
+  void JoinAt(int t, int opposite) {
+    const int corner = CornerOf(tets()[t], opposite);
+    framed_.matched.matches[t][corner] = 0;
+    framed_.is_interface[t][corner] = false;
+  }
+
   std::vector<Eigen::Vector3d>& points() { return framed_.mesh.points; }
   std::vector<std::array<int, 4>>& tets() { return framed_.mesh.tets; }
   bool IsNew(int v) const { return v >= num_old_points_; }
@@ -139,6 +184,7 @@ class Splitter {
     append_copy(&framed_.matched.frames);
     append_copy(&framed_.matched.matches);
     append_copy(&framed_.parents);
+    append_copy(&framed_.is_interface);
     if (!framed_.mesh.regions.empty()) append_copy(&framed_.mesh.regions);
     for (const int v : tets()[copy]) tets_of_[v].push_back(copy);
     return copy;
@@ -156,6 +202,7 @@ class Splitter {
   const int num_old_points_ = static_cast<int>(framed_.mesh.points.size());
   std::vector<std::vector<int>> tets_of_;
   std::vector<std::pair<int, int>> reframed_;
+  std::set<Edge> features_;
 };
 
 // Regular edges with both ends on one connected part of the singular edges.
@@ -181,36 +228,92 @@ class SingularParts {
   std::vector<bool> is_singular_ring_;
 };
 
-// Whether a singular edge ends at a boundary face as on a plane across it: its axis is the outward one.
-bool IsAcross(const MatchedFrames& matched, const EdgeRings& rings, const SingularEdge& edge,
-              const BoundarySheets::Face& face) {
-  if (edge.valence == 0) return false;
-  const Eigen::Matrix3d& frame = matched.frames[rings.steps[rings.begin[edge.ring]].tet];
-  const Eigen::Vector3d axis = frame * QuarterAxis(TurnAround(matched, rings, edge.ring));
-  constexpr double kHalfRightAngle = 0.7071;
-  return std::abs(axis.dot(matched.frames[face.tet].col(face.axis))) > kHalfRightAngle;
-}
+// Features and creases as lines on which two parameters are constant: those of feature edges that go straight on into
+// each other, by less than 45 degrees, and of two creases that meet at a vertex where there is no third one.
+class FeatureLines {
+ public:
+  FeatureLines(const TetMesh& mesh, const std::vector<Edge>& creases)
+      : lines_(static_cast<int>(mesh.feature_edges.size() + creases.size())) {
+    std::vector<Edge> all = mesh.feature_edges;
+    all.insert(all.end(), creases.begin(), creases.end());
+    const int num_features = static_cast<int>(mesh.feature_edges.size());
+    std::map<int, std::vector<int>> creases_of;
+    std::map<Edge, int> first;
+    for (int i = 0; i < static_cast<int>(all.size()); ++i) {
+      const auto [a, b] = all[i];
+      edges_.insert(Sorted(a, b));
+      const auto [place, is_new] = first.emplace(Sorted(a, b), i);
+      if (!is_new) lines_.Unite(place->second, i);
+      for (const int v : {a, b}) {
+        edges_of_[v].push_back(i);
+        if (i >= num_features) creases_of[v].push_back(i);
+      }
+    }
+    for (const auto& [v, edges] : creases_of) {
+      if (edges.size() == 2) lines_.Unite(edges[0], edges[1]);
+    }
+    for (const auto& [v, edges] : edges_of_) {
+      const auto direction = [&mesh, &all, v = v](int edge) -> Eigen::Vector3d {
+        const auto [a, b] = all[edge];
+        return (mesh.points[a == v ? b : a] - mesh.points[v]).normalized();
+      };
+      for (const int i : edges) {
+        for (const int j : edges) {
+          constexpr double kHalfRightAngle = 0.7071;
+          if (i < num_features && j < num_features && direction(i).dot(direction(j)) < -kHalfRightAngle) {
+            lines_.Unite(i, j);
+          }
+        }
+      }
+    }
+  }
 
-// The boundary vertices that singular edges touch.
+  // Whether an edge that is none of them has both ends on one line.
+  bool IsChord(int a, int b) {
+    const auto at_a = edges_of_.find(a), at_b = edges_of_.find(b);
+    if (at_a == edges_of_.end() || at_b == edges_of_.end() || edges_.count(Sorted(a, b)) > 0) return false;
+    for (const int i : at_a->second) {
+      for (const int j : at_b->second) {
+        if (lines_.Root(i) == lines_.Root(j)) return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  internal::UnionFind lines_;
+  std::set<Edge> edges_;
+  std::map<int, std::vector<int>> edges_of_;
+};
+
+// The boundary vertices that singular edges touch, not to end there as on a plane across: with the outward axis.
 std::vector<int> FindTouchedVertices(const TetMesh& mesh, const MatchedFrames& matched, const EdgeRings& rings,
                                      const std::vector<SingularEdge>& singular_edges, const BoundarySheets& sheets) {
   std::map<int, std::vector<const SingularEdge*>> edges_of;
   for (const SingularEdge& edge : singular_edges) {
     for (const int v : edge.vertices) edges_of[v].push_back(&edge);
   }
-  std::vector<int> touched;
+  std::map<int, std::map<int, int>> axes_at;
+  std::set<int> touched;
   for (const BoundarySheets::Face& face : sheets.faces) {
-    if (sheets.sheets[face.sheet].is_released) continue;
+    if (face.is_released) continue;
     for (int k = 0; k < 4; ++k) {
-      const auto edges = edges_of.find(mesh.tets[face.tet][k]);
-      if (k == face.corner || edges == edges_of.end()) continue;
-      const bool is_end = edges->second.size() == 1 && IsAcross(matched, rings, *edges->second[0], face);
-      if (!is_end) touched.push_back(edges->first);
+      const int v = mesh.tets[face.tet][k];
+      const auto edges = edges_of.find(v);
+      if (k == face.corner || edges == edges_of.end() || touched.count(v) > 0) continue;
+      // A curve may go on behind an interface.
+      const bool is_inside = matched.neighbours[face.tet][face.corner] >= 0;
+      if (edges->second.size() > (is_inside ? 2 : 1)) {
+        touched.insert(v);
+        continue;
+      }
+      const auto [axes, is_new] = axes_at.emplace(v, std::map<int, int>());
+      if (is_new) axes->second = CarryAxis(mesh, matched, rings, *edges->second[0], v);
+      const auto axis = axes->second.find(face.tet);
+      if (axis == axes->second.end() || axis->second != face.axis) touched.insert(v);
     }
   }
-  std::sort(touched.begin(), touched.end());
-  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-  return touched;
+  return {touched.begin(), touched.end()};
 }
 
 // Takes shortcuts, one triangle after the other.
@@ -361,7 +464,7 @@ struct InnerFace {
 };
 
 // Inner faces with all corners on one sheet, at most one of each tetrahedron.
-std::vector<InnerFace> FindFlatFaces(const TetMesh& mesh, const MatchedFrames& matched, const VertexSheets& sheets) {
+std::vector<InnerFace> FindFlatFaces(const TetMesh& mesh, const MatchedFrames& matched, const SheetsAt& sheets) {
   std::vector<InnerFace> faces;
   std::vector<bool> is_taken(mesh.tets.size(), false);
   for (int t = 0; t < static_cast<int>(mesh.tets.size()); ++t) {
@@ -370,7 +473,7 @@ std::vector<InnerFace> FindFlatFaces(const TetMesh& mesh, const MatchedFrames& m
       if (s < t || is_taken[s] || is_taken[t]) continue;
       const std::array<int, 4>& tet = mesh.tets[t];
       const std::array<int, 3> face = {tet[(i + 1) % 4], tet[(i + 2) % 4], tet[(i + 3) % 4]};
-      if (!sheets.ShareOne({face[0], face[1], face[2]})) continue;
+      if (!sheets.IsFlatFace(tet, i)) continue;
       is_taken[s] = is_taken[t] = true;
       faces.push_back({t, s, face});
     }
@@ -389,29 +492,59 @@ bool SplitForMap(const EdgeRings& rings, const std::vector<SingularEdge>& singul
                  FramedMesh* framed) {
   const TetMesh& mesh = framed->mesh;
   const auto touched = FindTouchedVertices(mesh, framed->matched, rings, singular_edges, sheets);
+  Splitter splitter(framed);
   if (!touched.empty()) {
-    Splitter splitter(framed);
     for (const int v : touched) splitter.SplitAround(v);
-    splitter.Rematch();
+    splitter.Finish();
     return true;
   }
-  const VertexSheets vertex_sheets(mesh, sheets);
+  const SheetsAt sheets_at(mesh, sheets);
   SingularParts singular(mesh.points.size(), rings.size(), singular_edges);
-  std::vector<std::array<int, 2>> edges;
+  FeatureLines lines(mesh, sheets.creases);
+  std::vector<Edge> edges;
   for (std::size_t r = 0; r < rings.size(); ++r) {
     const auto [a, b] = rings.vertices[r];
-    if (rings.is_closed[r] && (vertex_sheets.ShareOne({a, b}) || singular.IsShortcut(r, a, b))) edges.push_back({a, b});
+    const bool is_chord = sheets_at.IsChord(a, b) || lines.IsChord(a, b);
+    if (is_chord || (rings.is_closed[r] && singular.IsShortcut(r, a, b))) edges.push_back(Sorted(a, b));
   }
-  if (!edges.empty()) {
-    Splitter splitter(framed);
-    for (const auto& [a, b] : edges) splitter.SplitEdge(a, b);
-    return true;
-  }
-  const auto faces = FindFlatFaces(mesh, framed->matched, vertex_sheets);
-  if (faces.empty()) return false;
-  Splitter splitter(framed);
+  // Where the boundary touches itself an edge has several rings.
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  const auto faces = edges.empty() ? FindFlatFaces(mesh, framed->matched, sheets_at) : std::vector<InnerFace>();
+  for (const auto& [a, b] : edges) splitter.SplitEdge(a, b);
   for (const InnerFace& face : faces) splitter.SplitFace(face.t, face.s, face.vertices);
-  return true;
+  splitter.Finish();
+  return !edges.empty() || !faces.empty();
+}
+
+bool SplitTets(const std::vector<int>& tets, const EdgeRings& rings, const std::vector<SingularEdge>& singular_edges,
+               const BoundarySheets& sheets, FramedMesh* framed) {
+  const TetMesh& mesh = framed->mesh;
+  std::set<Edge> kept(mesh.feature_edges.begin(), mesh.feature_edges.end());
+  for (const SingularEdge& edge : singular_edges) kept.insert(Sorted(edge.vertices[0], edge.vertices[1]));
+  for (std::size_t r = 0; r < rings.size(); ++r) {
+    if (!rings.is_closed[r]) kept.insert(Sorted(rings.vertices[r][0], rings.vertices[r][1]));
+  }
+  for (const BoundarySheets::Face& face : sheets.faces) {
+    const std::array<int, 4>& tet = mesh.tets[face.tet];
+    for (int k = 1; k < 4; ++k) kept.insert(Sorted(tet[(face.corner + k) % 4], tet[(face.corner + k % 3 + 1) % 4]));
+  }
+  std::set<Edge> edges;
+  for (const int t : tets) {
+    std::optional<Edge> longest;
+    const auto length = [&](const Edge& edge) { return (mesh.points[edge[0]] - mesh.points[edge[1]]).norm(); };
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 0; j < i; ++j) {
+        const Edge edge = Sorted(mesh.tets[t][i], mesh.tets[t][j]);
+        if (kept.count(edge) == 0 && (!longest || length(edge) > length(*longest))) longest = edge;
+      }
+    }
+    if (longest) edges.insert(*longest);
+  }
+  Splitter splitter(framed);
+  for (const auto& [a, b] : edges) splitter.SplitEdge(a, b);
+  splitter.Finish();
+  return !edges.empty();
 }
 
 }  // namespace octupole

@@ -179,17 +179,49 @@ class Equations {
   std::map<int, Combination> solutions_;
 };
 
+// Along which a feature edge holds two parameters constant: the other axes of a tetrahedron at the edge.
+struct HeldEdge {
+  int tet;
+  std::array<int, 2> vertices;
+  std::array<int, 2> axes;
+};
+
+std::vector<HeldEdge> FindHeldEdges(const TetMesh& mesh, const CombedFrames& combed, const EdgeRings& rings) {
+  std::vector<HeldEdge> held;
+  for (const auto& [a, b] : mesh.feature_edges) {
+    const std::array<int, 2> edge = {std::min(a, b), std::max(a, b)};
+    const auto place = std::lower_bound(rings.vertices.begin(), rings.vertices.end(), edge);
+    if (place == rings.vertices.end() || *place != edge) continue;
+    const int tet = rings.steps[rings.begin[place - rings.vertices.begin()]].tet;
+    const Eigen::Vector3d along = combed.frames[tet].transpose() * (mesh.points[b] - mesh.points[a]);
+    int axis;
+    constexpr double kCosine30 = 0.866;
+    if (along.cwiseAbs().maxCoeff(&axis) < kCosine30 * along.norm()) continue;
+    held.push_back({tet, {a, b}, {(axis + 1) % 3, (axis + 2) % 3}});
+  }
+  return held;
+}
+
 class Eliminator {
  public:
   Eliminator(const MapCut& cut) : first_root_(3 * cut.num_patches), scalars_(3 * cut.num_nodes) {}
 
   void JoinSheets(const MapCut& cut, const BoundarySheets& sheets) {
     for (const BoundarySheets::Face& face : sheets.faces) {
-      if (sheets.sheets[face.sheet].is_released) continue;
+      if (face.is_released) continue;
       const int a = (face.corner + 1) % 4;
       for (const int b : {(face.corner + 2) % 4, (face.corner + 3) % 4}) {
         Join(3 * cut.nodes[face.tet][b] + face.axis, 1, 3 * cut.nodes[face.tet][a] + face.axis, {});
       }
+    }
+  }
+
+  void JoinFeatures(const TetMesh& mesh, const MapCut& cut, const std::vector<HeldEdge>& held) {
+    for (const HeldEdge& edge : held) {
+      const std::array<int, 4>& tet = mesh.tets[edge.tet];
+      const int a = cut.nodes[edge.tet][CornerOf(tet, edge.vertices[0])];
+      const int b = cut.nodes[edge.tet][CornerOf(tet, edge.vertices[1])];
+      for (const int k : edge.axes) Join(3 * b + k, 1, 3 * a + k, {});
     }
   }
 
@@ -208,6 +240,7 @@ class Eliminator {
   }
 
   MapUnknowns Finish(int num_rows) {
+    SolveEquations();
     MapUnknowns unknowns;
     unknowns.begin.reserve(num_rows + 1);
     unknowns.terms.reserve(num_rows);
@@ -240,7 +273,24 @@ class Eliminator {
  private:
   void Join(int x, int sign, int y, const Combination& shift) {
     const Combination equation = scalars_.Join(x, sign, y, shift, first_root_);
-    if (!equation.empty()) equations_.Add(equation);
+    if (!equation.empty()) left_.push_back(equation);
+  }
+
+  // Equations that were left on the way name roots of then, which may have been joined to others since.
+  void SolveEquations() {
+    for (const Combination& equation : left_) {
+      Combination sum;
+      for (const auto& [variable, factor] : equation) {
+        if (variable < first_root_) {
+          sum = ::octupole::Add(sum, factor, {{variable, 1.}});
+          continue;
+        }
+        const JoinedScalars::Value value = scalars_.Find(variable - first_root_);
+        sum = ::octupole::Add(sum, factor, {{value.root + first_root_, value.sign}});
+        sum = ::octupole::Add(sum, factor, value.shift);
+      }
+      equations_.Add(sum);
+    }
   }
 
   Combination Expand(const Combination& combination) {
@@ -259,6 +309,7 @@ class Eliminator {
 
   int first_root_;
   JoinedScalars scalars_;
+  std::vector<Combination> left_;
   Equations equations_;
   std::map<int, int> number_;
 };
@@ -277,7 +328,9 @@ MapUnknowns EliminateConstraints(const TetMesh& mesh, const CombedFrames& combed
                                  const BoundarySheets& sheets, const EdgeRings& rings,
                                  const std::vector<SingularEdge>& singular_edges) {
   Eliminator eliminator(cut);
+  const std::vector<HeldEdge> held = FindHeldEdges(mesh, combed, rings);
   eliminator.JoinSheets(cut, sheets);
+  eliminator.JoinFeatures(mesh, cut, held);
   eliminator.JoinSeams(mesh, combed, cut);
   MapUnknowns unknowns = eliminator.Finish(3 * cut.num_nodes);
   eliminator.MarkShifts(&unknowns);
@@ -290,7 +343,11 @@ MapUnknowns EliminateConstraints(const TetMesh& mesh, const CombedFrames& combed
     }
   };
   for (const BoundarySheets::Face& face : sheets.faces) {
-    if (!sheets.sheets[face.sheet].is_released) mark(cut.nodes[face.tet][(face.corner + 1) % 4], face.axis);
+    if (!face.is_released) mark(cut.nodes[face.tet][(face.corner + 1) % 4], face.axis);
+  }
+  for (const HeldEdge& edge : held) {
+    const int node = cut.nodes[edge.tet][CornerOf(mesh.tets[edge.tet], edge.vertices[0])];
+    for (const int k : edge.axes) mark(node, k);
   }
   for (const SingularEdge& edge : singular_edges) {
     // The parameters that the turn changes.

@@ -33,10 +33,11 @@ struct MapUnknowns {
   std::vector<double> Parameters(const std::vector<double>& y) const;
 };
 
-/// Eliminates the constraints: across a cut face u_t = g^T u_s + shift, one shift for each patch, and on a sheet one
-/// value of the outward axis' parameter. Parameters that a constraint of two joins become one up to sign and shifts;
-/// what is left are a few equations between those and the shifts, which are solved exactly, with pivots of factor 1
-/// wherever there is one, so that the unknowns being whole all are.
+/// Eliminates the constraints: across a cut face u_t = g^T u_s + shift, one shift for each patch; on a sheet one value
+/// of the outward axis' parameter; and along a feature edge of the mesh that is within 30 degrees of an axis the
+/// parameters of the other two are constant. Parameters that a constraint of two joins become one up to sign and
+/// shifts; what is left are a few equations between those and the shifts, which are solved exactly, with pivots of
+/// factor 1 wherever there is one, so that the unknowns being whole all are.
 MapUnknowns EliminateConstraints(const TetMesh& mesh, const CombedFrames& combed, const MapCut& cut,
                                  const BoundarySheets& sheets, const EdgeRings& rings,
                                  const std::vector<SingularEdge>& singular_edges);

@@ -35,4 +35,16 @@ std::vector<std::array<int, 4>> TetNeighbours(const TetMesh& mesh) {
   return neighbours;
 }
 
+int CornerAcross(const TetMesh& mesh, const std::vector<std::array<int, 4>>& neighbours, int tet, int corner) {
+  const int neighbour = neighbours[tet][corner];
+  // Two tetrahedra may share several faces.
+  for (int i = 0; i < 3; ++i) {
+    if (neighbours[neighbour][i] != tet) continue;
+    bool is_same = true;
+    for (int k = 0; k < 4; ++k) is_same = is_same && (k == corner || mesh.tets[tet][k] != mesh.tets[neighbour][i]);
+    if (is_same) return i;
+  }
+  return 3;
+}
+
 }  // namespace octupole

@@ -3,17 +3,18 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
-#include <locale>
-#include <sstream>
 #include <stdexcept>
 
 #include "octupole/field/boundary_alignment.h"
-#include "octupole/field/sharp_edges.h"
 #include "octupole/mesh/mesh_topology.h"
+#include "octupole/view/internal/scene_parts.h"
 
 namespace octupole {
 namespace {
 
+using internal::AddFeatures;
+using internal::AddSurface;
+using internal::SceneText;
 using Triangles = std::vector<std::array<int, 3>>;
 using Edges = std::vector<std::array<int, 2>>;
 
@@ -27,56 +28,13 @@ constexpr std::array<const char*, 5> kNameOfType = {"no turn", "quarter turn", "
                                                     "half turn about a diagonal", "third of a turn"};
 constexpr std::array<const char*, 4> kNameOfEnd = {"none", "boundary", "node", "open"};
 
-std::string Text(double number) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text.precision(5);
-  text << number;
-  return text.str();
-}
-
-std::string Degrees(double number) { return Text(std::round(number * 100) / 100) + "\u00b0"; }
+std::string Degrees(double number) { return SceneText(std::round(number * 100) / 100) + "\u00b0"; }
 
 std::string IndexText(int quarter_index) {
   const std::string sign = quarter_index < 0 ? "-" : "";
   const int quarters = std::abs(quarter_index);
   if (quarters % 4 == 0) return sign + std::to_string(quarters / 4);
   return sign + (quarters % 2 == 0 ? std::to_string(quarters / 2) + "/2" : std::to_string(quarters) + "/4");
-}
-
-// The points that cells use, and the cells with indices into these.
-template <std::size_t N>
-void Compact(const std::vector<Eigen::Vector3d>& all_points, std::vector<std::array<int, N>> all_cells,
-             std::vector<Eigen::Vector3d>* points, std::vector<std::array<int, N>>* cells) {
-  std::vector<int> index_of(all_points.size(), -1);
-  for (std::array<int, N>& cell : all_cells) {
-    for (int& v : cell) {
-      if (index_of[v] < 0) {
-        index_of[v] = static_cast<int>(points->size());
-        points->push_back(all_points[v]);
-      }
-      v = index_of[v];
-    }
-  }
-  *cells = std::move(all_cells);
-}
-
-void AddSurface(const std::string& name, const std::vector<Eigen::Vector3d>& points, Triangles triangles, bool is_solid,
-                Scene* scene) {
-  SceneSurface& surface = scene->surfaces.emplace_back();
-  surface.name = name;
-  surface.is_solid = is_solid;
-  Compact(points, std::move(triangles), &surface.points, &surface.triangles);
-}
-
-void AddFeatures(const TriangleMesh& mesh, double feature_angle_deg, Scene* scene) {
-  SceneLines& lines = scene->lines.emplace_back();
-  lines.name = "feature edges";
-  Edges edges =
-      mesh.feature_edges.empty() ? SharpEdges(mesh.points, mesh.triangles, feature_angle_deg) : mesh.feature_edges;
-  const Edges open = OpenEdges(mesh);
-  edges.insert(edges.end(), open.begin(), open.end());
-  Compact(mesh.points, std::move(edges), &lines.points, &lines.segments);
 }
 
 void AddFrames(const std::string& caller, const std::vector<Eigen::Vector3d>& points, const Edges& edges,
@@ -114,7 +72,7 @@ void AddCurves(const SingularCurves& curves, Scene* scene) {
     std::string label = has_valence ? "valence " + std::to_string(curve.valence) : "no valence";
     label += std::string("\n") + kNameOfType[static_cast<std::size_t>(curve.type)];
     if (has_valence) label += ", index " + IndexText(4 - curve.valence);
-    label += "\nlength " + Text(curve.length);
+    label += "\nlength " + SceneText(curve.length);
     if (curve.is_loop()) {
       label += ", closed";
     } else {
@@ -191,13 +149,13 @@ std::vector<std::pair<std::string, std::string>> FieldFigures(const TetMesh& mes
   for (const SingularCurve& curve : curves.curves) length += curve.length;
   return {{"vertices", std::to_string(mesh.points.size())},
           {"tetrahedra", std::to_string(mesh.tets.size())},
-          {"energy of the frames, degree 3", Text(quality.energy3)},
-          {"degree 4", Text(quality.energy4)},
+          {"energy of the frames, degree 3", SceneText(quality.energy3)},
+          {"degree 4", SceneText(quality.energy4)},
           {"boundary error, rms", Degrees(quality.boundary_rms_deg)},
           {"largest", Degrees(quality.boundary_max_deg)},
           {"singular triangles", std::to_string(quality.singular_triangles)},
           {"singular curves", std::to_string(curves.curves.size())},
-          {"their length", Text(length)},
+          {"their length", SceneText(length)},
           {"nodes", std::to_string(curves.nodes.size())},
           {"points on the boundary", std::to_string(boundary_points.size())}};
 }

@@ -25,6 +25,8 @@ struct SceneSurface {
   std::vector<std::array<int, 3>> triangles;
   /// It encloses something solid: where the page cuts it open, the cut is filled.
   bool is_solid = false;
+  /// Only its line on the cut is shown.
+  bool is_only_on_cut = false;
 };
 
 /// Thin lines that are shown and hidden together.
@@ -32,6 +34,8 @@ struct SceneLines {
   std::string name;
   std::vector<Eigen::Vector3d> points;
   std::vector<std::array<int, 2>> segments;
+  /// They go where the page cuts, as what they lie on does.
+  bool is_cut = false;
 };
 
 /// A polyline as a tube; `label` is what the page says under the mouse.

@@ -87,6 +87,8 @@ std::string Shares(const std::string& part, const std::vector<double>& numbers) 
   return "{\"largest\":" + JsonNumber(largest) + ",\"shares\":" + JsonBytes(bytes) + "}";
 }
 
+std::string Bool(bool value) { return value ? "true" : "false"; }
+
 template <typename Parts, typename Write>
 std::string Array(const Parts& parts, const Write& write) {
   std::string json = "[";
@@ -122,12 +124,13 @@ class SceneJson {
               return "{\"name\":" + JsonString(k.name) + ",\"color\":" + JsonString(k.color) + "}";
             });
     json += ",\"surfaces\":" + Array(scene_.surfaces, [&](const SceneSurface& s) {
-              return "{\"name\":" + JsonString(s.name) + ",\"isSolid\":" + (s.is_solid ? "true" : "false") +
-                     ",\"points\":" + Positions(s.points) +
+              return "{\"name\":" + JsonString(s.name) + ",\"isSolid\":" + Bool(s.is_solid) +
+                     ",\"isOnlyOnCut\":" + Bool(s.is_only_on_cut) + ",\"points\":" + Positions(s.points) +
                      ",\"triangles\":" + Indices(s.name, s.triangles, s.points.size()) + "}";
             });
     json += ",\"lines\":" + Array(scene_.lines, [&](const SceneLines& l) {
-              return "{\"name\":" + JsonString(l.name) + ",\"points\":" + Positions(l.points) +
+              return "{\"name\":" + JsonString(l.name) + ",\"isCut\":" + Bool(l.is_cut) +
+                     ",\"points\":" + Positions(l.points) +
                      ",\"segments\":" + Indices(l.name, l.segments, l.points.size()) + "}";
             });
     json += ",\"curves\":" + Array(scene_.curves, [&](const SceneCurve& c) {
@@ -141,7 +144,7 @@ class SceneJson {
     json += ",\"boxes\":" + Array(scene_.boxes, [&](const SceneBoxes& b) {
               CheckSizes(b.name, b.centers.size(), {b.frames.size(), b.spacings.size(), b.values.size()});
               return "{\"name\":" + JsonString(b.name) + ",\"valueName\":" + JsonString(b.value_name) +
-                     ",\"areFlat\":" + (b.are_flat ? "true" : "false") + ",\"points\":" + Positions(b.centers) +
+                     ",\"areFlat\":" + Bool(b.are_flat) + ",\"points\":" + Positions(b.centers) +
                      ",\"rotations\":" + Rotations(b.name, b.frames) + ",\"spacings\":" + Shares(b.name, b.spacings) +
                      ",\"values\":" + Shares(b.name, b.values) + "}";
             });

@@ -1,5 +1,6 @@
 #include "octupole/solvers/seamless_map.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -9,14 +10,19 @@
 #include <string>
 #include <utility>
 
-#include "octupole/maps/foldover_energy.h"
+#include "octupole/frames/octahedral_group.h"
 #include "octupole/mesh/mesh_topology.h"
 #include "octupole/solvers/internal/map_energy.h"
+#include "octupole/solvers/internal/map_system.h"
+#include "octupole/solvers/internal/untangler.h"
+#include "octupole/solvers/workers.h"
 
 namespace octupole {
 namespace {
 
+using internal::MakeMapSystem;
 using internal::MapEnergy;
+using internal::MapSystem;
 using internal::SolveByConjugateGradients;
 using internal::Vector;
 using Clock = std::chrono::steady_clock;
@@ -40,83 +46,225 @@ void Check(const MapOptions& options) {
   if (options.max_iterations < 0) fail("max_iterations", options.max_iterations);
 }
 
-// A volume that is no more than this part of what it should be counts as none.
-constexpr double kLeastDeterminant = 1e-6;
+// The tetrahedron of the start that a tetrahedron of the domain is, or that is a part of the same one of the mesh: as
+// splitting leaves what is left first, that of its number.
+int CounterpartOf(const MapDomain& domain, const TetMesh& start, int t) {
+  const bool is_same = t < static_cast<int>(start.tets.size()) && start.tets[t] == domain.mesh.tets[t];
+  return is_same ? t : domain.parents[t];
+}
 
-std::vector<int> FindFlipped(const std::vector<double>& determinants, const std::vector<int>& collapsed) {
-  std::vector<int> flipped = collapsed;
-  for (std::size_t t = 0; t < determinants.size(); ++t) {
-    if (determinants[t] <= kLeastDeterminant) flipped.push_back(static_cast<int>(t));
+// Times H the gradients of the start, its axes named as those of the domain's frames. Scaled to fit the frames best,
+// which changes nothing for a fit of them, but makes up for another H.
+std::vector<Eigen::Matrix3d> StartJacobians(const TetMesh& mesh, const MapDomain& domain, const MeshMap& start) {
+  const std::size_t num_points = mesh.points.size();
+  const bool is_of_mesh = start.mesh.points.size() >= num_points && start.mesh.tets.size() >= mesh.tets.size() &&
+                          start.parameters.size() == start.mesh.tets.size() &&
+                          std::equal(mesh.points.begin(), mesh.points.end(), start.mesh.points.begin());
+  if (!is_of_mesh) {
+    throw std::invalid_argument("SolveSeamlessMap: the start is a map of another mesh, of " +
+                                std::to_string(start.mesh.points.size()) + " points and " +
+                                std::to_string(start.mesh.tets.size()) + " tetrahedra");
   }
-  std::sort(flipped.begin(), flipped.end());
-  return flipped;
+  std::vector<Eigen::Matrix3d> jacobians(domain.mesh.tets.size(), Eigen::Matrix3d::Zero());
+  double fit = 0, square = 0;
+  for (int t = 0; t < static_cast<int>(jacobians.size()); ++t) {
+    const int s = CounterpartOf(domain, start.mesh, t);
+    Eigen::Matrix3d edges, images;
+    for (int i = 0; i < 3; ++i) {
+      edges.col(i) = start.mesh.points[start.mesh.tets[s][i + 1]] - start.mesh.points[start.mesh.tets[s][0]];
+      images.col(i) = start.parameters[s][i + 1] - start.parameters[s][0];
+    }
+    const double volume = std::abs(edges.determinant());
+    const Eigen::Matrix3d gradients = images * edges.inverse(), frame = domain.combed.frames[t].transpose();
+    if (!gradients.allFinite()) continue;  // of a flat tetrahedron
+    double best = -1;
+    for (const OctahedralRotation& g : OctahedralGroup()) {
+      const Eigen::Matrix3d named = g.matrix() * gradients;
+      const double likeness = named.cwiseProduct(frame).sum();
+      if (likeness <= best) continue;
+      best = likeness;
+      jacobians[t] = named;
+    }
+    fit += volume * jacobians[t].cwiseProduct(frame).sum();
+    square += volume * jacobians[t].squaredNorm();
+  }
+  const double scale = square > 0 ? fit / square : 0;
+  for (Eigen::Matrix3d& jacobian : jacobians) jacobian *= scale;
+  return jacobians;
 }
 
-void AddTo(const Vector& step, double factor, Vector* y) {
-  for (std::size_t i = 0; i < y->size(); ++i) (*y)[i] += factor * step[i];
-}
-
-double Dot(const Vector& a, const Vector& b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.); }
-
-// The least squares fit of the frames in the unknowns that are not held, from y.
-void FitFrames(double tolerance, MapEnergy* energy, Vector* y) {
+// The least squares fit of the targets in the unknowns of the system, from x.
+void FitFrames(double tolerance, MapEnergy* energy, Vector* x) {
   constexpr int kMaxIterations = 5000;
   Vector gradient;
-  energy->EvaluateFrames(*y, &gradient);
+  energy->EvaluateFrames(*x, &gradient);
   for (double& g : gradient) g = -g;
-  Vector step(y->size(), 0);
+  Vector step(x->size(), 0);
   SolveByConjugateGradients(energy, gradient, tolerance, kMaxIterations, &step);
-  AddTo(step, 1, y);
+  for (std::size_t i = 0; i < x->size(); ++i) (*x)[i] += step[i];
 }
 
-// Newton's method on the foldover-free energy.
-class Untangler {
- public:
-  Untangler(const MapOptions& options, MapEnergy* energy, Clock::time_point start)
-      : options_(options), energy_(energy), start_(start) {}
-
-  int num_iterations() const { return num_iterations_; }
-
-  ceres::TerminationType Run(Vector* y) {
-    double least = energy_->LeastDeterminant(*y), epsilon = FirstEpsilon(least);
-    Vector gradient, step(y->size()), trial;
-    int num_idle = 0;
-    while (least <= kLeastDeterminant) {
-      if (num_iterations_ == options_.max_iterations) return ceres::NO_CONVERGENCE;
-      const double before = energy_->EvaluateFoldovers(*y, epsilon, &gradient);
-      for (double& g : gradient) g = -g;
-      std::fill(step.begin(), step.end(), 0.);
-      SolveByConjugateGradients(energy_, gradient, kForcing, kMaxInner, &step);
-      const double slope = Dot(gradient, step);
-      double length = 1, after = before;
-      for (; length > kShortestStep; length /= 2) {
-        trial = *y;
-        AddTo(step, length, &trial);
-        after = energy_->EvaluateFoldovers(trial, epsilon, nullptr);
-        if (after <= before - 1e-4 * length * slope) break;
-      }
-      if (length > kShortestStep) {
-        y->swap(trial);
-      } else {
-        after = before;
-      }
-      ++num_iterations_;
-      least = energy_->LeastDeterminant(*y);
-      num_idle = before - after > 1e-5 * before ? 0 : num_idle + 1;
-      epsilon = NextEpsilon(epsilon, least, before, after);
-      const ceres::CallbackReturnType wish = Report(before, after, gradient);
-      if (wish == ceres::SOLVER_ABORT) return ceres::USER_FAILURE;
-      if (wish == ceres::SOLVER_TERMINATE_SUCCESSFULLY) return ceres::USER_SUCCESS;
-      if (num_idle == kMaxIdle) return ceres::NO_CONVERGENCE;
+CornerParameters AtCorners(const MapDomain& domain, const Vector& y) {
+  const std::vector<double> u = domain.unknowns.Parameters(y);
+  CornerParameters parameters(domain.mesh.tets.size());
+  for (std::size_t t = 0; t < parameters.size(); ++t) {
+    for (int i = 0; i < 4; ++i) {
+      parameters[t][i] = Eigen::Map<const Eigen::Vector3d>(&u[3 * static_cast<std::size_t>(domain.cut.nodes[t][i])]);
     }
-    return ceres::CONVERGENCE;
+  }
+  return parameters;
+}
+
+// A map on its way.
+class MapSolver {
+ public:
+  MapSolver(const MapOptions& options, const MapDomain& domain, double size, int num_iterations,
+            Clock::time_point start)
+      : options_(options),
+        domain_(domain),
+        size_(size),
+        start_(start),
+        num_iterations_(num_iterations),
+        workers_(options.num_threads),
+        y_(domain.unknowns.num_unknowns, 0),
+        is_held_(domain.unknowns.num_unknowns, false),
+        whole_(MakeMapSystem(domain, y_, std::vector<bool>(domain.unknowns.num_unknowns, true))),
+        whole_energy_(domain, whole_, size, &workers_) {}
+
+  const Vector& y() const { return y_; }
+  bool was_ended() const { return was_ended_; }
+  int num_iterations() const { return num_iterations_; }
+  int num_rounded() const { return num_rounded_; }
+
+  // What Fit draws the Jacobians to, instead of the frames.
+  void SetTargets(std::vector<Eigen::Matrix3d> jacobians) {
+    targets_ = std::move(jacobians);
+    whole_energy_.SetTargets(targets_);
+  }
+
+  void Fit(double tolerance) {
+    if (std::find(is_held_.begin(), is_held_.end(), true) == is_held_.end()) {
+      FitFrames(tolerance, &whole_energy_, &y_);
+      return;
+    }
+    std::vector<bool> is_free = is_held_;
+    is_free.flip();
+    const MapSystem system = MakeMapSystem(domain_, y_, is_free);
+    MapEnergy energy(domain_, system, size_, &workers_);
+    if (!targets_.empty()) energy.SetTargets(targets_);
+    Vector x = system.Part(y_);
+    FitFrames(tolerance, &energy, &x);
+    system.PutPart(x, &y_);
+  }
+
+  // Those that are turned over or flat, in ascending order.
+  std::vector<int> FindFlipped() {
+    std::vector<int> flipped = FindOpen();
+    flipped.insert(flipped.end(), domain_.collapsed.begin(), domain_.collapsed.end());
+    std::sort(flipped.begin(), flipped.end());
+    return flipped;
+  }
+
+  // The same without those that are flat in every map.
+  std::vector<int> FindOpen() {
+    std::vector<int> open;
+    const std::vector<double>& determinants = whole_energy_.Determinants(y_);
+    for (std::size_t i = 0; i < determinants.size(); ++i) {
+      if (determinants[i] <= internal::kLeastDeterminant) open.push_back(whole_.tets[i]);
+    }
+    return open;
+  }
+
+  // In neighbourhoods of what is turned over, larger and larger, then, unless it is not to be, everywhere.
+  ceres::TerminationType Unfold(bool everywhere) {
+    constexpr int kEverywhere = -1;
+    const int last_iteration = num_iterations_ + options_.max_iterations;
+    for (const int num_rings : {3, 6, 12, kEverywhere}) {
+      const std::vector<int> open = FindOpen();
+      if (open.empty()) return ceres::CONVERGENCE;
+      std::vector<bool> is_free = is_held_;
+      is_free.flip();
+      if (num_rings != kEverywhere) {
+        const std::vector<bool> is_near = internal::FindUnknownsAround(domain_, open, num_rings);
+        for (std::size_t j = 0; j < is_free.size(); ++j) is_free[j] = is_free[j] && is_near[j];
+      } else if (!everywhere) {
+        break;
+      }
+      const MapSystem system = MakeMapSystem(domain_, y_, is_free);
+      MapEnergy energy(domain_, system, size_, &workers_);
+      Vector x = system.Part(y_);
+      constexpr int kMaxIterations = 60;
+      const ceres::TerminationType termination = internal::Untangle(
+          {std::min(kMaxIterations, last_iteration - num_iterations_),
+           [&](double before, double after, const Vector& gradient) { return Report(before, after, gradient); }},
+          &energy, &x, &num_iterations_);
+      system.PutPart(x, &y_);
+      was_ended_ = termination == ceres::USER_FAILURE || termination == ceres::USER_SUCCESS;
+      if (was_ended_) return termination;
+    }
+    return FindOpen().empty() ? ceres::CONVERGENCE : ceres::NO_CONVERGENCE;
+  }
+
+  // Rounds the unknowns that must be whole, the surest first, a twelfth of those open at a time and all that are nearly
+  // whole; fits and unfolds the rest after each batch. A batch that leaves more turned over than before is undone and
+  // halved; a single unknown goes to its other side. What fails on both stays on the better one.
+  ceres::TerminationType Round() {
+    std::vector<int> open;
+    for (std::size_t j = 0; j < y_.size(); ++j) {
+      if (domain_.unknowns.is_integer[j]) open.push_back(static_cast<int>(j));
+    }
+    num_rounded_ = static_cast<int>(open.size());
+    std::size_t num_flipped = FindFlipped().size(), limit = open.size();
+    while (!open.empty() && !was_ended_) {
+      constexpr double kNearlyWhole = 0.02;
+      const auto distance = [&](int j) { return std::abs(y_[j] - std::round(y_[j])); };
+      std::sort(open.begin(), open.end(), [&](int a, int b) { return distance(a) < distance(b); });
+      std::size_t count = (open.size() + 11) / 12;
+      while (count < open.size() && distance(open[count]) < kNearlyWhole) ++count;
+      count = std::min(count, limit);
+      const std::vector<int> batch(open.begin(), open.begin() + static_cast<std::ptrdiff_t>(count));
+      const Vector before = y_;
+      Hold(batch, [](double value) { return std::round(value); });
+      std::size_t now = FindFlipped().size();
+      if (now > num_flipped && count > 1) {
+        Release(batch, before);
+        limit = count / 2;
+        continue;
+      }
+      if (now > num_flipped) {
+        const Vector rounded = y_;
+        Release(batch, before);
+        Hold(batch, [](double value) { return std::round(value) > value ? std::floor(value) : std::ceil(value); });
+        const std::size_t other = FindFlipped().size();
+        if (other < now) {
+          now = other;
+        } else {
+          y_ = rounded;
+        }
+      }
+      num_flipped = now;
+      limit = 2 * count;
+      open.erase(open.begin(), open.begin() + static_cast<std::ptrdiff_t>(count));
+    }
+    if (was_ended_) return ceres::USER_FAILURE;
+    return FindOpen().empty() ? ceres::CONVERGENCE : ceres::NO_CONVERGENCE;
   }
 
  private:
-  static constexpr double kForcing = 0.05;
-  static constexpr int kMaxInner = 200;
-  static constexpr double kShortestStep = 1e-6;
-  static constexpr int kMaxIdle = 10;
+  template <typename Rounding>
+  void Hold(const std::vector<int>& batch, const Rounding& rounding) {
+    for (const int j : batch) {
+      y_[j] = rounding(y_[j]);
+      is_held_[j] = true;
+    }
+    Fit(1e-4);
+    Unfold(false);
+  }
+
+  void Release(const std::vector<int>& batch, const Vector& y) {
+    y_ = y;
+    for (const int j : batch) is_held_[j] = false;
+  }
 
   ceres::CallbackReturnType Report(double before, double after, const Vector& gradient) const {
     if (options_.callback == nullptr) return ceres::SOLVER_CONTINUE;
@@ -130,47 +278,19 @@ class Untangler {
   }
 
   const MapOptions& options_;
-  MapEnergy* energy_;
+  const MapDomain& domain_;
+  const double size_;
   const Clock::time_point start_;
-  int num_iterations_ = 0;
+  int num_iterations_;
+  Workers workers_;
+  Vector y_;
+  std::vector<bool> is_held_;
+  std::vector<Eigen::Matrix3d> targets_;
+  const MapSystem whole_;
+  MapEnergy whole_energy_;
+  int num_rounded_ = 0;
+  bool was_ended_ = false;
 };
-
-CornerParameters AtCorners(const MapDomain& domain, const Vector& y) {
-  const std::vector<double> u = domain.unknowns.Parameters(y);
-  CornerParameters parameters(domain.mesh.tets.size());
-  for (std::size_t t = 0; t < parameters.size(); ++t) {
-    for (int i = 0; i < 4; ++i) {
-      parameters[t][i] = Eigen::Map<const Eigen::Vector3d>(&u[3 * static_cast<std::size_t>(domain.cut.nodes[t][i])]);
-    }
-  }
-  return parameters;
-}
-
-// Rounds the unknowns that must be whole, the surest first, and fits the rest again after each batch.
-int RoundUnknowns(const std::vector<bool>& is_integer, MapEnergy* energy, Vector* y) {
-  std::vector<bool> is_held(y->size(), false);
-  std::vector<int> open;
-  for (std::size_t j = 0; j < y->size(); ++j) {
-    if (is_integer[j]) open.push_back(static_cast<int>(j));
-  }
-  const int num_rounded = static_cast<int>(open.size());
-  const auto distance = [&](int j) { return std::abs((*y)[j] - std::round((*y)[j])); };
-  while (!open.empty()) {
-    // All that are nearly whole at once, and at least the surest twelfth.
-    constexpr double kNearlyWhole = 0.02;
-    std::sort(open.begin(), open.end(), [&](int a, int b) { return distance(a) < distance(b); });
-    std::size_t count = (open.size() + 11) / 12;
-    while (count < open.size() && distance(open[count]) < kNearlyWhole) ++count;
-    for (std::size_t i = 0; i < count; ++i) {
-      (*y)[open[i]] = std::round((*y)[open[i]]);
-      is_held[open[i]] = true;
-    }
-    open.erase(open.begin(), open.begin() + static_cast<std::ptrdiff_t>(count));
-    energy->Hold(is_held);
-    FitFrames(1e-4, energy, y);
-  }
-  return num_rounded;
-}
 
 }  // namespace
 
@@ -178,31 +298,43 @@ SeamlessMap SolveSeamlessMap(const TetMesh& mesh, const std::vector<Eigen::Matri
                              const MapOptions& options) {
   Check(options);
   const Clock::time_point start = Clock::now();
-  Workers workers(options.num_threads);
   SeamlessMap map;
-  map.domain = MakeMapDomain(mesh, frames);
+  map.domain = MakeMapDomain(mesh, frames, options.boundary);
   map.size = options.size > 0 ? options.size : 2 * MeanEdgeLength(mesh);
-  const MapDomain& domain = map.domain;
-  std::vector<bool> is_left_out(domain.mesh.tets.size(), false);
-  for (const int t : domain.collapsed) is_left_out[t] = true;
-  MapEnergy energy(domain.mesh, domain.combed, domain.cut, domain.unknowns, map.size, is_left_out, &workers);
-  Vector y(domain.unknowns.num_unknowns, 0);
   map.setup_seconds = SecondsSince(start);
 
-  const Clock::time_point ready = Clock::now();
-  FitFrames(1e-5, &energy, &y);
-  if (options.integer) map.num_rounded = RoundUnknowns(domain.unknowns.is_integer, &energy, &y);
-  map.flipped_before = FindFlipped(energy.Determinants(y), domain.collapsed);
-  map.linear_seconds = SecondsSince(ready);
+  std::vector<Eigen::Matrix3d> targets;
+  if (options.start) targets = StartJacobians(mesh, map.domain, *options.start);
+  for (int round = 0;; ++round) {
+    const Clock::time_point ready = Clock::now();
+    MapSolver solver(options, map.domain, map.size, map.num_iterations, start);
+    if (!targets.empty()) solver.SetTargets(std::move(targets));
+    solver.Fit(1e-5);
+    if (round == 0) map.flipped_before = solver.FindFlipped();
+    map.linear_seconds += SecondsSince(ready);
 
-  const Clock::time_point fitted = Clock::now();
-  Untangler untangler(options, &energy, start);
-  map.termination = untangler.Run(&y);
-  map.num_iterations = untangler.num_iterations();
-  map.flipped = FindFlipped(energy.Determinants(y), domain.collapsed);
-  map.parameters = AtCorners(domain, y);
-  map.foldover_seconds = SecondsSince(fitted);
-  return map;
+    const Clock::time_point fitted = Clock::now();
+    map.termination = solver.Unfold(round == 0);
+    // What no step has turned back may need more vertices to move.
+    constexpr int kMaxRounds = 4;
+    const bool is_last = map.termination != ceres::NO_CONVERGENCE || round == kMaxRounds || options.max_iterations == 0;
+    if (is_last && options.integer) {
+      map.termination = solver.Round();
+      map.num_rounded = solver.num_rounded();
+    }
+    map.num_iterations = solver.num_iterations();
+    map.parameters = AtCorners(map.domain, solver.y());
+    if (is_last) {
+      map.flipped = solver.FindFlipped();
+      map.foldover_seconds += SecondsSince(fitted);
+      return map;
+    }
+    MapDomain finer = RefineMapDomain(map.domain, solver.FindOpen());
+    targets = StartJacobians(map.domain.mesh, finer, {map.domain.mesh, map.parameters});
+    for (int& parent : finer.parents) parent = map.domain.parents[parent];
+    map.domain = std::move(finer);
+    map.foldover_seconds += SecondsSince(fitted);
+  }
 }
 
 }  // namespace octupole

@@ -4,6 +4,7 @@
 #include <ceres/types.h>
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "octupole/maps/map_domain.h"
@@ -16,11 +17,17 @@ struct MapOptions {
   /// H: the length that one unit of a parameter stands for, so that of the hexahedra's edges. By default, where it is
   /// 0, twice the mean length of the mesh's edges.
   double size = 0;
+  /// Which feature edges and interfaces hold parameters constant (MakeMapDomain).
+  BoundaryOptions boundary;
   /// An integer-grid map: sheets, singular edges and shifts of the cut are rounded to integers, the surest first.
   bool integer = false;
-  /// Of Newton's method against foldovers.
+  /// Of Newton's method against foldovers, each time that there are some: after the fit, after the mesh was refined
+  /// where no step helped, and for an integer-grid map after each batch that was rounded.
   int max_iterations = 200;
   int num_threads = 1;
+  /// An earlier map of the same mesh to begin with, whatever H it has and however its axes are named: the least squares
+  /// fit is of its gradients instead of the frames. Where singular edges or sheets have changed it is of less use.
+  std::optional<MeshMap> start;
   /// Called after every iteration; of the summary, `iteration`, `cost`, `cost_change`, `gradient_max_norm` and
   /// `cumulative_time_in_seconds` are set. The cost is the foldover-free energy.
   ceres::IterationCallback* callback = nullptr;
@@ -55,7 +62,7 @@ struct SeamlessMap {
 ///     over; each step by conjugate gradients, no matrix is assembled.
 ///
 /// \param frames one rotation per point.
-/// \throw std::invalid_argument as MakeMapDomain does; when an option is out of range.
+/// \throw std::invalid_argument as MakeMapDomain does; when an option is out of range or the start of another mesh.
 SeamlessMap SolveSeamlessMap(const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& frames,
                              const MapOptions& options = {});
 

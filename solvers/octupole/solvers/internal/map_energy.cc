@@ -34,60 +34,65 @@ double Inner(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) { return a.cwis
 
 }  // namespace
 
-MapEnergy::MapEnergy(const TetMesh& mesh, const CombedFrames& combed, const MapCut& cut, const MapUnknowns& unknowns,
-                     double size, std::vector<bool> is_left_out, Workers* workers)
-    : num_unknowns_(unknowns.num_unknowns), workers_(workers), unknowns_(unknowns) {
+MapEnergy::MapEnergy(const MapDomain& domain, const MapSystem& system, double size, Workers* workers)
+    : num_unknowns_(system.num_unknowns()), workers_(workers), system_(system) {
   double volume = 0;
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    if (is_left_out[t]) continue;
+  tets_.reserve(system.tets.size());
+  for (std::size_t i = 0; i < system.tets.size(); ++i) {
+    const int t = system.tets[i];
+    const auto point = [&](int corner) -> const Eigen::Vector3d& {
+      return domain.mesh.points[domain.mesh.tets[t][corner]];
+    };
     Eigen::Matrix3d edges;
-    for (int i = 0; i < 3; ++i) edges.col(i) = mesh.points[mesh.tets[t][i + 1]] - mesh.points[mesh.tets[t][0]];
+    for (int k = 0; k < 3; ++k) edges.col(k) = point(k + 1) - point(0);
     Tet tet;
-    tet.nodes = cut.nodes[t];
+    tet.nodes = system.nodes[i];
     tet.weight = std::abs(edges.determinant());
     volume += tet.weight;
     tet.gradients = size * edges.inverse();  // row i is the gradient of corner i + 1
-    tet.frame = combed.frames[t].transpose();
+    tet.target = domain.combed.frames[t].transpose();
     tet.jacobian.setZero();
     tet.cofactors.setZero();
     tet.direct = tet.mixed = tet.cofactor = 0;
     tets_.push_back(tet);
-    numbers_.push_back(t);
   }
   for (Tet& tet : tets_) tet.weight *= static_cast<double>(tets_.size()) / volume;
-  determinants_.assign(mesh.tets.size(), 1);
-  u_.resize(3 * static_cast<std::size_t>(cut.num_nodes));
+  determinants_.resize(tets_.size());
+  u_.resize(3 * system.num_nodes);
   node_forces_.resize(u_.size());
   forces_.resize(12 * tets_.size());
-  corners_begin_.assign(cut.num_nodes + 1, 0);
+  corners_begin_.assign(system.num_nodes + 1, 0);
   for (const Tet& tet : tets_) {
     for (const int n : tet.nodes) ++corners_begin_[n + 1];
   }
-  for (int n = 0; n < cut.num_nodes; ++n) corners_begin_[n + 1] += corners_begin_[n];
+  for (std::size_t n = 0; n < system.num_nodes; ++n) corners_begin_[n + 1] += corners_begin_[n];
   corners_.resize(4 * tets_.size());
   std::vector<std::size_t> next(corners_begin_.begin(), corners_begin_.end() - 1);
   for (std::size_t t = 0; t < tets_.size(); ++t) {
     for (int i = 0; i < 4; ++i) corners_[next[tets_[t].nodes[i]]++] = static_cast<int>(4 * t) + i;
   }
   rows_begin_.assign(num_unknowns_ + 1, 0);
-  for (const MapUnknowns::Term& term : unknowns.terms) ++rows_begin_[term.unknown + 1];
+  for (const MapUnknowns::Term& term : system.terms) ++rows_begin_[term.unknown + 1];
   for (std::size_t j = 0; j < num_unknowns_; ++j) rows_begin_[j + 1] += rows_begin_[j];
-  rows_.resize(unknowns.terms.size());
+  rows_.resize(system.terms.size());
   next.assign(rows_begin_.begin(), rows_begin_.end() - 1);
-  for (std::size_t row = 0; row + 1 < unknowns.begin.size(); ++row) {
-    for (std::size_t i = unknowns.begin[row]; i < unknowns.begin[row + 1]; ++i) {
-      rows_[next[unknowns.terms[i].unknown]++] = {static_cast<int>(row), unknowns.terms[i].factor};
+  for (std::size_t row = 0; row + 1 < system.begin.size(); ++row) {
+    for (std::size_t i = system.begin[row]; i < system.begin[row + 1]; ++i) {
+      rows_[next[system.terms[i].unknown]++] = {static_cast<int>(row), system.terms[i].factor};
     }
   }
-  is_held_.assign(num_unknowns_, false);
 }
 
-void MapEnergy::SetParameters(const Vector& y) {
+void MapEnergy::SetTargets(const std::vector<Eigen::Matrix3d>& jacobians) {
+  for (std::size_t t = 0; t < tets_.size(); ++t) tets_[t].target = jacobians[system_.tets[t]];
+}
+
+void MapEnergy::SetParameters(const Vector& x, bool is_direction) {
   workers_->ForEachRange(u_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
-      double sum = 0;
-      for (std::size_t i = unknowns_.begin[row]; i < unknowns_.begin[row + 1]; ++i) {
-        sum += unknowns_.terms[i].factor * y[unknowns_.terms[i].unknown];
+      double sum = is_direction ? 0 : system_.offset[row];
+      for (std::size_t i = system_.begin[row]; i < system_.begin[row + 1]; ++i) {
+        sum += system_.terms[i].factor * x[system_.terms[i].unknown];
       }
       u_[row] = sum;
     }
@@ -127,31 +132,26 @@ void MapEnergy::GatherForces(Vector* result) {
       for (std::size_t i = rows_begin_[j]; i < rows_begin_[j + 1]; ++i) {
         sum += rows_[i].factor * node_forces_[rows_[i].unknown];
       }
-      (*result)[j] = is_held_[j] ? 0 : sum;
+      (*result)[j] = sum;
     }
   });
 }
 
-const std::vector<double>& MapEnergy::Determinants(const Vector& y) {
-  SetParameters(y);
+const std::vector<double>& MapEnergy::Determinants(const Vector& x) {
+  SetParameters(x, false);
   workers_->ForEachRange(tets_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) determinants_[numbers_[t]] = JacobianOf(tets_[t]).determinant();
+    for (std::size_t t = begin; t < end; ++t) determinants_[t] = JacobianOf(tets_[t]).determinant();
   });
   return determinants_;
 }
 
-double MapEnergy::LeastDeterminant(const Vector& y) {
-  const auto& determinants = Determinants(y);
-  return *std::min_element(determinants.begin(), determinants.end());
-}
-
-double MapEnergy::EvaluateFrames(const Vector& y, Vector* gradient) {
-  SetParameters(y);
+double MapEnergy::EvaluateFrames(const Vector& x, Vector* gradient) {
+  SetParameters(x, false);
   const double energy = workers_->Sum(tets_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     double sum = 0;
     for (std::size_t t = begin; t < end; ++t) {
       Tet& tet = tets_[t];
-      const Eigen::Matrix3d rest = JacobianOf(tet) - tet.frame;
+      const Eigen::Matrix3d rest = JacobianOf(tet) - tet.target;
       sum += tet.weight * rest.squaredNorm();
       tet.direct = 2 * tet.weight;
       tet.mixed = tet.cofactor = 0;
@@ -165,8 +165,8 @@ double MapEnergy::EvaluateFrames(const Vector& y, Vector* gradient) {
   return energy;
 }
 
-double MapEnergy::EvaluateFoldovers(const Vector& y, double epsilon, Vector* gradient) {
-  SetParameters(y);
+double MapEnergy::EvaluateFoldovers(const Vector& x, double epsilon, Vector* gradient) {
+  SetParameters(x, false);
   const double energy = workers_->Sum(tets_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     double sum = 0;
     for (std::size_t t = begin; t < end; ++t) {
@@ -189,7 +189,7 @@ double MapEnergy::EvaluateFoldovers(const Vector& y, double epsilon, Vector* gra
 }
 
 void MapEnergy::Multiply(const Vector& p, Vector* product) {
-  SetParameters(p);
+  SetParameters(p, true);
   workers_->ForEachRange(tets_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
       const Tet& tet = tets_[t];
@@ -206,42 +206,64 @@ void MapEnergy::Multiply(const Vector& p, Vector* product) {
   GatherForces(product);
 }
 
-const Vector& MapEnergy::Diagonal() {
-  diagonal_.assign(num_unknowns_, 0);
-  // An unknown may drive several parameters of a tetrahedron; the sum over their pairs is what counts.
+template <typename IsWanted, typename Use>
+void MapEnergy::ForEachEntry(const Tet& tet, const IsWanted& is_wanted, const Use& use) const {
   struct Driven {
     int unknown;
     int corner;
     int axis;
     double factor;
   };
-  std::vector<Driven> driven;
-  for (const Tet& tet : tets_) {
-    Eigen::Matrix<double, 4, 3> g;
-    g.bottomRows<3>() = tet.gradients;
-    g.row(0) = -tet.gradients.colwise().sum();
-    const Eigen::Matrix<double, 3, 4> along = tet.jacobian * g.transpose(), volume = tet.cofactors * g.transpose();
-    driven.clear();
-    for (int i = 0; i < 4; ++i) {
-      for (int k = 0; k < 3; ++k) {
-        const std::size_t row = 3 * static_cast<std::size_t>(tet.nodes[i]) + k;
-        for (std::size_t j = unknowns_.begin[row]; j < unknowns_.begin[row + 1]; ++j) {
-          driven.push_back({unknowns_.terms[j].unknown, i, k, unknowns_.terms[j].factor});
-        }
-      }
-    }
-    for (const Driven& a : driven) {
-      for (const Driven& b : driven) {
-        if (a.unknown != b.unknown) continue;
-        double entry = tet.mixed * (along(a.axis, a.corner) * volume(b.axis, b.corner) +
-                                    volume(a.axis, a.corner) * along(b.axis, b.corner)) +
-                       tet.cofactor * volume(a.axis, a.corner) * volume(b.axis, b.corner);
-        if (a.axis == b.axis) entry += tet.direct * g.row(a.corner).dot(g.row(b.corner));
-        diagonal_[a.unknown] += a.factor * b.factor * entry;
+  // A corner has few terms, but it may have some from shifts.
+  thread_local std::vector<Driven> driven;
+  driven.clear();
+  Eigen::Matrix<double, 4, 3> g;
+  g.bottomRows<3>() = tet.gradients;
+  g.row(0) = -tet.gradients.colwise().sum();
+  const Eigen::Matrix4d dots = g * g.transpose();
+  const Eigen::Matrix<double, 3, 4> along = tet.jacobian * g.transpose(), volume = tet.cofactors * g.transpose();
+  for (int i = 0; i < 4; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      const std::size_t row = 3 * static_cast<std::size_t>(tet.nodes[i]) + k;
+      for (std::size_t j = system_.begin[row]; j < system_.begin[row + 1]; ++j) {
+        driven.push_back({system_.terms[j].unknown, i, k, system_.terms[j].factor});
       }
     }
   }
+  for (const Driven& a : driven) {
+    for (const Driven& b : driven) {
+      if (!is_wanted(a.unknown, b.unknown)) continue;
+      double entry = tet.mixed * (along(a.axis, a.corner) * volume(b.axis, b.corner) +
+                                  volume(a.axis, a.corner) * along(b.axis, b.corner)) +
+                     tet.cofactor * volume(a.axis, a.corner) * volume(b.axis, b.corner);
+      if (a.axis == b.axis) entry += tet.direct * dots(a.corner, b.corner);
+      use(a.unknown, b.unknown, a.factor * b.factor * entry);
+    }
+  }
+}
+
+const Vector& MapEnergy::Diagonal() {
+  diagonal_.assign(num_unknowns_, 0);
+  for (const Tet& tet : tets_) {
+    // An unknown may drive several parameters of a tetrahedron; the sum over their pairs is what counts.
+    ForEachEntry(
+        tet, [](int a, int b) { return a == b; }, [&](int a, int, double entry) { diagonal_[a] += entry; });
+  }
   return diagonal_;
+}
+
+Eigen::SparseMatrix<double> MapEnergy::Assemble() const {
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(78 * tets_.size());
+  for (const Tet& tet : tets_) {
+    ForEachEntry(
+        tet, [](int a, int b) { return a >= b; },
+        [&](int a, int b, double entry) { entries.emplace_back(a, b, entry); });
+  }
+  const auto n = static_cast<Eigen::Index>(num_unknowns_);
+  Eigen::SparseMatrix<double> hessian(n, n);
+  hessian.setFromTriplets(entries.begin(), entries.end());
+  return hessian;
 }
 
 int SolveByConjugateGradients(MapEnergy* energy, const Vector& right, double tolerance, int max_iterations, Vector* x) {

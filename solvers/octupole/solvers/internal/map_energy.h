@@ -1,46 +1,44 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <array>
 #include <cstddef>
 #include <vector>
 
-#include "octupole/maps/combed_frames.h"
-#include "octupole/maps/map_cut.h"
-#include "octupole/maps/map_unknowns.h"
-#include "octupole/mesh/tet_mesh.h"
+#include "octupole/maps/map_domain.h"
+#include "octupole/solvers/internal/map_system.h"
 #include "octupole/solvers/workers.h"
 
 namespace octupole::internal {
 
-using Vector = std::vector<double>;
-
-/// Energies of a seamless map as functions of its unknowns y, with products of their Hessians, never assembled: a sum
-/// over tetrahedra of functions of the Jacobian J = grad u * H, weighted by volume, 1 on average.
+/// Energies of a part of a seamless map as functions of its unknowns, with products of their Hessians: a sum over
+/// tetrahedra of functions of the Jacobian J = grad u * H, weighted by volume, 1 on average.
 class MapEnergy {
  public:
-  /// \param is_left_out tetrahedra that do not count.
-  MapEnergy(const TetMesh& mesh, const CombedFrames& combed, const MapCut& cut, const MapUnknowns& unknowns,
-            double size, std::vector<bool> is_left_out, Workers* workers);
+  /// \param system outlives it.
+  MapEnergy(const MapDomain& domain, const MapSystem& system, double size, Workers* workers);
 
   std::size_t num_unknowns() const { return num_unknowns_; }
+  std::size_t num_tets() const { return tets_.size(); }
 
-  /// Unknowns that are held where they are: gradients and products are zero there.
-  void Hold(std::vector<bool> is_held) { is_held_ = std::move(is_held); }
+  /// The determinants of the Jacobians of the system's tetrahedra, 1 where volumes are kept.
+  const std::vector<double>& Determinants(const Vector& x);
 
-  /// The determinants of the Jacobians, 1 where volumes are kept; of those left out 1, too.
-  const std::vector<double>& Determinants(const Vector& y);
-  double LeastDeterminant(const Vector& y);
+  /// What EvaluateFrames draws the Jacobians to: by default the frames, F^T. In the order of the domain's tetrahedra.
+  void SetTargets(const std::vector<Eigen::Matrix3d>& jacobians);
 
-  /// Sum of weight |J - F^T|^2, F the frame.
-  double EvaluateFrames(const Vector& y, Vector* gradient);
+  /// Sum of weight |J - target|^2.
+  double EvaluateFrames(const Vector& x, Vector* gradient);
 
   /// Sum of weight times FoldoverEnergy; the gradient may be null.
-  double EvaluateFoldovers(const Vector& y, double epsilon, Vector* gradient);
+  double EvaluateFoldovers(const Vector& x, double epsilon, Vector* gradient);
 
   /// With the Hessian of the last evaluation that had a gradient.
   void Multiply(const Vector& p, Vector* product);
   const Vector& Diagonal();
+  /// The Hessian itself, its lower triangle.
+  Eigen::SparseMatrix<double> Assemble() const;
 
  private:
   struct Tet {
@@ -48,23 +46,26 @@ class MapEnergy {
     double weight;
     /// Times H, of the hat functions of corners 1, 2 and 3; that of corner 0 is minus their sum.
     Eigen::Matrix3d gradients;
-    Eigen::Matrix3d frame;
+    Eigen::Matrix3d target;
     /// Hessian of the energy by J: direct I + mixed (J C^T + C J^T) + cofactor C C^T, with C the cofactors.
     Eigen::Matrix3d jacobian;
     Eigen::Matrix3d cofactors;
     double direct, mixed, cofactor;
   };
 
-  void SetParameters(const Vector& y);
+  // u = A x, plus the offset unless it is a direction.
+  void SetParameters(const Vector& x, bool is_direction);
   Eigen::Matrix3d JacobianOf(const Tet& tet) const;
   void PutForces(std::size_t t, const Eigen::Matrix3d& by_jacobian);
   void GatherForces(Vector* result);
+  // Calls `use` with pairs of unknowns that a tetrahedron couples, as far as they are wanted, and the Hessian's entry.
+  template <typename IsWanted, typename Use>
+  void ForEachEntry(const Tet& tet, const IsWanted& is_wanted, const Use& use) const;
 
   std::size_t num_unknowns_;
   Workers* workers_;
-  const MapUnknowns& unknowns_;
+  const MapSystem& system_;
   std::vector<Tet> tets_;
-  std::vector<std::size_t> numbers_;  // of the tets in the mesh
   std::vector<double> u_;
   std::vector<double> forces_;  // 12 per tet
   std::vector<double> node_forces_;
@@ -73,7 +74,6 @@ class MapEnergy {
   std::vector<std::size_t> rows_begin_;  // of each unknown
   std::vector<MapUnknowns::Term> rows_;
   std::vector<double> determinants_;
-  std::vector<bool> is_held_;
   Vector diagonal_;
 };
 
