@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -92,6 +93,33 @@ TEST(SeamlessMap, RoundsToAnIntegerGrid) {
     const double value = map.parameters[face.tet][(face.corner + 1) % 4][face.axis];
     EXPECT_NEAR(value, std::round(value), 1e-12);
   }
+}
+
+// A map is its own fit: started from there, it comes back, up to shifts, and where H is another one, scaled.
+TEST(SeamlessMap, BeginsWithAnEarlierOne) {
+  const TetMesh mesh = MakeCylinderMesh(8, 6, 2);
+  const std::vector<Eigen::Matrix3d> frames = SolveField<3>(mesh).frames;
+  MapOptions options;
+  options.max_iterations = 0;
+  const SeamlessMap first = SolveSeamlessMap(mesh, frames, options);
+  options.start = MeshMap{first.domain.mesh, first.parameters};
+  for (const double factor : {1., 2.}) {
+    options.size = factor * first.size;
+    const SeamlessMap second = SolveSeamlessMap(mesh, frames, options);
+    ASSERT_EQ(second.parameters.size(), first.parameters.size());
+    double largest = 0;
+    for (std::size_t t = 0; t < first.parameters.size(); ++t) {
+      for (int i = 1; i < 4; ++i) {
+        const Eigen::Vector3d one = first.parameters[t][i] - first.parameters[t][0],
+                              other = second.parameters[t][i] - second.parameters[t][0];
+        largest = std::max(largest, (one - factor * other).norm());
+      }
+    }
+    EXPECT_LT(largest, 2e-3) << factor;
+  }
+  const TetMesh box = MakeBoxMesh({2, 2, 2}, {1, 1, 1});
+  EXPECT_THAT(MessageOf<std::invalid_argument>([&] { SolveSeamlessMap(box, ConstantFrames(box), options); }),
+              HasSubstr("the start is a map of another mesh"));
 }
 
 TEST(SeamlessMap, DoesNotDependOnTheNumberOfThreads) {

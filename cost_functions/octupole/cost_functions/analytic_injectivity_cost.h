@@ -7,7 +7,7 @@
 
 namespace octupole {
 
-/// InjectivityCost with its derivatives written out, several times faster (benchmarks/cost_benchmark): with the rows
+/// InjectivityCost with its derivatives written out, about twice as fast (benchmarks/cost_benchmark): with the rows
 /// g_i of HatGradients, the cofactors C of J and D_i = C g_i = d det/du_i, and as dchi/ddet = chi q, q = 1 /
 /// sqrt(epsilon^2
 /// + det^2),

@@ -7,7 +7,7 @@
 
 namespace octupole {
 
-/// MapGradientCost with its derivatives written out, several times faster (benchmarks/cost_benchmark): with the rows
+/// MapGradientCost with its derivatives written out, about twice as fast (benchmarks/cost_benchmark): with the rows
 /// g_i of HatGradients, J = sum_i u_i g_i, and
 ///
 ///   r = sqrt(weight) (J - F^T) by rows,   dr_kl/du_i = sqrt(weight) g_il e_k^T.

@@ -80,7 +80,8 @@ std::vector<Eigen::Matrix3d> StartJacobians(const TetMesh& mesh, const MapDomain
     double best = -1;
     for (const OctahedralRotation& g : OctahedralGroup()) {
       const Eigen::Matrix3d named = g.matrix() * gradients;
-      const double likeness = named.cwiseProduct(frame).sum();
+      // As they are, unless others are far more like: a map that is far from the frames names none of them anew.
+      const double likeness = named.cwiseProduct(frame).sum() * (g == OctahedralRotation() ? 2 : 1);
       if (likeness <= best) continue;
       best = likeness;
       jacobians[t] = named;
@@ -175,10 +176,14 @@ class MapSolver {
     return open;
   }
 
-  // In neighbourhoods of what is turned over, larger and larger, then, unless it is not to be, everywhere.
+  // In neighbourhoods of what is turned over, larger and larger; then, if it is to be, everywhere and from the
+  // beginning. The best of these remains.
   ceres::TerminationType Unfold(bool everywhere) {
     constexpr int kEverywhere = -1;
     const int last_iteration = num_iterations_ + options_.max_iterations;
+    const Vector start = y_;
+    Vector best = y_;
+    std::size_t least = FindOpen().size();
     for (const int num_rings : {3, 6, 12, kEverywhere}) {
       const std::vector<int> open = FindOpen();
       if (open.empty()) return ceres::CONVERGENCE;
@@ -189,19 +194,26 @@ class MapSolver {
         for (std::size_t j = 0; j < is_free.size(); ++j) is_free[j] = is_free[j] && is_near[j];
       } else if (!everywhere) {
         break;
+      } else {
+        y_ = start;
       }
       const MapSystem system = MakeMapSystem(domain_, y_, is_free);
       MapEnergy energy(domain_, system, size_, &workers_);
       Vector x = system.Part(y_);
-      constexpr int kMaxIterations = 60;
+      const int max_iterations = num_rings == kEverywhere ? 60 : 25;
       const ceres::TerminationType termination = internal::Untangle(
-          {std::min(kMaxIterations, last_iteration - num_iterations_),
+          {std::min(max_iterations, last_iteration - num_iterations_),
            [&](double before, double after, const Vector& gradient) { return Report(before, after, gradient); }},
           &energy, &x, &num_iterations_);
       system.PutPart(x, &y_);
       was_ended_ = termination == ceres::USER_FAILURE || termination == ceres::USER_SUCCESS;
+      if (const std::size_t now = FindOpen().size(); now <= least) {
+        least = now;
+        best = y_;
+      }
       if (was_ended_) return termination;
     }
+    y_ = best;
     return FindOpen().empty() ? ceres::CONVERGENCE : ceres::NO_CONVERGENCE;
   }
 
