@@ -11,19 +11,20 @@ namespace octupole {
 
 template <int kDegree>
 struct FieldEnergy<kDegree>::Implementation {
-  Implementation(const FieldGraph& field_graph, const EnergyWeights& weights, Workers* workers)
-      : graph(field_graph), function(graph, weights, workers) {}
+  Implementation(const FieldGraph& field_graph, const EnergyWeights& weights, Workers* workers, std::size_t num_owned)
+      : graph(field_graph, num_owned), function(graph, weights, workers) {}
 
   internal::SweepGraph graph;
   internal::FieldFunction<kDegree, double> function;
 };
 
 template <int kDegree>
-FieldEnergy<kDegree>::FieldEnergy(const FieldGraph& graph, const EnergyWeights& weights, Workers* workers) {
-  CheckFieldGraph(graph);
+FieldEnergy<kDegree>::FieldEnergy(const FieldGraph& graph, const EnergyWeights& weights, Workers* workers,
+                                  std::optional<std::size_t> num_owned) {
+  const std::size_t owned = internal::CheckNumOwned("FieldEnergy", graph, num_owned);
   RootOfWeight("FieldEnergy (scale)", weights.scale);
   RootOfWeight("FieldEnergy (deviation)", weights.deviation);
-  implementation_ = std::make_unique<Implementation>(graph, weights, workers);
+  implementation_ = std::make_unique<Implementation>(graph, weights, workers, owned);
 }
 
 template <int kDegree>
@@ -38,6 +39,23 @@ template <int kDegree>
 bool FieldEnergy<kDegree>::Evaluate(const double* parameters, double* cost, double* gradient) const {
   implementation_->function.Evaluate(parameters, cost, gradient);
   return true;
+}
+
+template <int kDegree>
+void FieldEnergy<kDegree>::Expand(const double* parameters) const {
+  implementation_->function.Expand(parameters);
+}
+
+template <int kDegree>
+double FieldEnergy<kDegree>::Sweep(std::size_t begin, std::size_t end, const double* /*parameters*/,
+                                   double* gradient) const {
+  return implementation_->function.Sweep(begin, end, gradient);
+}
+
+template <int kDegree>
+double* FieldEnergy<kDegree>::Row(std::size_t v) const {
+  static_assert(sizeof(internal::HarmonicRow<kDegree, double>) == kRowSize * sizeof(double));
+  return implementation_->function.RowOf(v);
 }
 
 template <int kDegree>

@@ -26,7 +26,7 @@ FieldFunction<kDegree, Scalar>::FieldFunction(const SweepGraph& graph, const Ene
   first_parameter_.assign(1, 0);
   first_parameter_.reserve(num_rows + 1);
   first_axis_row_.assign(num_vertices, -1);
-  for (std::size_t v = 0; v < num_vertices; ++v) {
+  for (std::size_t v = 0; v < graph.num_owned; ++v) {
     const Alignment& alignment = graph.alignments[v];
     int num_parameters = 0;
     if (alignment.kind() == AlignmentKind::kFree) {
@@ -48,7 +48,7 @@ FieldFunction<kDegree, Scalar>::FieldFunction(const SweepGraph& graph, const Ene
 }
 
 template <int kDegree, typename Scalar>
-void FieldFunction<kDegree, Scalar>::Expand(const Scalar* parameters, std::size_t begin, std::size_t end) const {
+void FieldFunction<kDegree, Scalar>::ExpandRange(const Scalar* parameters, std::size_t begin, std::size_t end) const {
   for (std::size_t v = begin; v < end; ++v) {
     const Scalar* x = parameters + first_parameter_[v];
     Scalar* row = rows_[v].values;
@@ -108,8 +108,8 @@ OCTUPOLE_INLINE double FieldFunction<kDegree, Scalar>::AddPenalties(std::size_t 
 // Half the energy of a range of vertices, and their gradients.
 template <int kDegree, typename Scalar>
 template <bool kWeighted>
-OCTUPOLE_INLINE double FieldFunction<kDegree, Scalar>::Sweep(std::size_t begin, std::size_t end,
-                                                             Scalar* gradient) const {
+OCTUPOLE_INLINE double FieldFunction<kDegree, Scalar>::SweepRange(std::size_t begin, std::size_t end,
+                                                                  Scalar* gradient) const {
   constexpr int kNumLanes = Row::kNumLanes;
   constexpr int kStep = kLanes<Scalar>;
   double energy = 0;
@@ -152,12 +152,23 @@ OCTUPOLE_INLINE double FieldFunction<kDegree, Scalar>::Sweep(std::size_t begin, 
 
 template <int kDegree, typename Scalar>
 void FieldFunction<kDegree, Scalar>::Evaluate(const Scalar* parameters, double* cost, Scalar* gradient) const {
-  workers_->ForEachRange(graph_.num_vertices(), kGrain,
-                         [&](std::size_t begin, std::size_t end) { Expand(parameters, begin, end); });
+  Expand(parameters);
+  *cost = Sweep(0, graph_.num_owned, gradient);
+}
+
+template <int kDegree, typename Scalar>
+void FieldFunction<kDegree, Scalar>::Expand(const Scalar* parameters) const {
+  workers_->ForEachRange(graph_.num_owned, kGrain,
+                         [&](std::size_t begin, std::size_t end) { ExpandRange(parameters, begin, end); });
+}
+
+template <int kDegree, typename Scalar>
+double FieldFunction<kDegree, Scalar>::Sweep(std::size_t first, std::size_t last, Scalar* gradient) const {
   const bool is_weighted = !graph_.weights.empty();
-  *cost = workers_->Sum(graph_.num_vertices(), kGrain, [&](std::size_t begin, std::size_t end) {
+  return workers_->Sum(last - first, kGrain, [&](std::size_t begin, std::size_t end) {
     return CallVectorised([&]() OCTUPOLE_INLINE_LAMBDA {
-      return is_weighted ? Sweep<true>(begin, end, gradient) : Sweep<false>(begin, end, gradient);
+      return is_weighted ? SweepRange<true>(first + begin, first + end, gradient)
+                         : SweepRange<false>(first + begin, first + end, gradient);
     });
   });
 }
@@ -188,7 +199,8 @@ std::vector<Harmonic<kDegree>> FieldFunction<kDegree, Scalar>::FieldOf(const std
   workers_->ForEachRange(field.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       const Scalar* x = parameters.data() + first_parameter_[v];
-      if (NumParameters(v) == kDimension<kDegree>) {
+      if (NumParameters(v) == kDimension<kDegree> || v >= graph_.num_owned) {
+        if (v >= graph_.num_owned) x = rows_[v].values;
         for (int i = 0; i < kDimension<kDegree>; ++i) field[v][i] = static_cast<double>(x[i]);
         continue;
       }

@@ -20,18 +20,22 @@ class FieldFunction {
 
   int num_parameters() const { return first_parameter_.back(); }
   void Evaluate(const Scalar* parameters, double* cost, Scalar* gradient) const;
+  /// The steps of Evaluate, see FieldEnergy.
+  void Expand(const Scalar* parameters) const;
+  double Sweep(std::size_t begin, std::size_t end, Scalar* gradient) const;
+  Scalar* RowOf(std::size_t v) const { return rows_[v].values; }
 
   std::vector<Scalar> ParametersOf(const std::vector<Harmonic<kDegree>>& field) const;
-  /// On the allowed subspaces to the last bits of a double.
+  /// On the allowed subspaces to the last bits of a double; for ghosts as they were told.
   std::vector<Harmonic<kDegree>> FieldOf(const std::vector<Scalar>& parameters) const;
 
  private:
   using Row = HarmonicRow<kDegree, Scalar>;
 
   template <bool kWeighted>
-  double Sweep(std::size_t begin, std::size_t end, Scalar* gradient) const;
+  double SweepRange(std::size_t begin, std::size_t end, Scalar* gradient) const;
   double AddPenalties(std::size_t v, const Lanes<Scalar>* h, Lanes<Scalar>* gradient) const;
-  void Expand(const Scalar* parameters, std::size_t begin, std::size_t end) const;
+  void ExpandRange(const Scalar* parameters, std::size_t begin, std::size_t end) const;
   int NumParameters(std::size_t v) const { return first_parameter_[v + 1] - first_parameter_[v]; }
 
   const SweepGraph& graph_;

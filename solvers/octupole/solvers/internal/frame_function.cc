@@ -60,7 +60,7 @@ FrameFunction<Scalar>::FrameFunction(const SweepGraph& graph, const std::vector<
   const auto is_soft = [&](std::size_t v) { return soft_weight && (is_hard.empty() || !is_hard[v]); };
   first_parameter_.assign(1, 0);
   first_parameter_.reserve(num_rows + 1);
-  for (std::size_t v = 0; v < num_vertices; ++v) {
+  for (std::size_t v = 0; v < graph.num_owned; ++v) {
     const AlignmentKind kind = graph.alignments[v].kind();
     const bool has_three = kind == AlignmentKind::kFree || is_soft(v);
     const int num_parameters = has_three ? 3 : kind == AlignmentKind::kAxis ? 1 : 0;
@@ -79,7 +79,7 @@ FrameFunction<Scalar>::FrameFunction(const SweepGraph& graph, const std::vector<
   if (!soft_weight) return;
   soft_weight_ = *soft_weight;
   soft_alignment_of_.assign(num_vertices, -1);
-  for (std::size_t v = 0; v < num_vertices; ++v) {
+  for (std::size_t v = 0; v < graph.num_owned; ++v) {
     const AlignmentKind kind = graph.alignments[v].kind();
     if (kind == AlignmentKind::kFree || !is_soft(v)) continue;
     const AlignedSubspace<4> subspace(graph.alignments[v]);
@@ -128,7 +128,8 @@ OCTUPOLE_INLINE void FrameFunction<Scalar>::GatherTurns(const Scalar* parameters
 }
 
 template <typename Scalar>
-OCTUPOLE_INLINE void FrameFunction<Scalar>::Expand(const Scalar* parameters, std::size_t begin, std::size_t end) const {
+OCTUPOLE_INLINE void FrameFunction<Scalar>::ExpandRange(const Scalar* parameters, std::size_t begin,
+                                                        std::size_t end) const {
   constexpr int kStep = kLanes<Scalar>;
   for (std::size_t first = begin; first < end; first += kStep) {
     // C(r) = I + 2 ([r] + [r]^2) / (1 + |r|^2).
@@ -166,8 +167,8 @@ OCTUPOLE_INLINE void FrameFunction<Scalar>::Expand(const Scalar* parameters, std
 
 template <typename Scalar>
 template <bool kWeighted>
-OCTUPOLE_INLINE double FrameFunction<Scalar>::Sweep(const Scalar* parameters, std::size_t begin, std::size_t end,
-                                                    Scalar* gradient) const {
+OCTUPOLE_INLINE double FrameFunction<Scalar>::SweepRange(const Scalar* parameters, std::size_t begin, std::size_t end,
+                                                         Scalar* gradient) const {
   constexpr int kNumLanes = Row::kNumLanes;
   constexpr int kStep = kLanes<Scalar>;
   const auto& matrices = SparseMatrices<4, Scalar>::Instance();
@@ -231,17 +232,27 @@ OCTUPOLE_INLINE double FrameFunction<Scalar>::Sweep(const Scalar* parameters, st
 
 template <typename Scalar>
 void FrameFunction<Scalar>::Evaluate(const Scalar* parameters, double* cost, Scalar* gradient) const {
-  // The rows past the end are to stay zero.
-  const std::size_t num_vertices = graph_.num_vertices();
-  workers_->ForEachRange(num_vertices, kGrain, [&](std::size_t begin, std::size_t end) {
-    CallVectorised([&]() OCTUPOLE_INLINE_LAMBDA { Expand(parameters, begin, end); });
+  Expand(parameters);
+  *cost = Sweep(0, graph_.num_owned, parameters, gradient);
+}
+
+template <typename Scalar>
+void FrameFunction<Scalar>::Expand(const Scalar* parameters) const {
+  workers_->ForEachRange(graph_.num_owned, kGrain, [&](std::size_t begin, std::size_t end) {
+    CallVectorised([&]() OCTUPOLE_INLINE_LAMBDA { ExpandRange(parameters, begin, end); });
   });
-  for (std::size_t v = num_vertices; v < rows_.size(); ++v) rows_[v] = Row();
+  // The rows past the end are to stay zero.
+  for (std::size_t v = graph_.num_vertices(); v < rows_.size(); ++v) rows_[v] = Row();
+}
+
+template <typename Scalar>
+double FrameFunction<Scalar>::Sweep(std::size_t first, std::size_t last, const Scalar* parameters,
+                                    Scalar* gradient) const {
   const bool is_weighted = !graph_.weights.empty();
-  *cost = workers_->Sum(num_vertices, kGrain, [&](std::size_t begin, std::size_t end) {
+  return workers_->Sum(last - first, kGrain, [&](std::size_t begin, std::size_t end) {
     return CallVectorised([&]() OCTUPOLE_INLINE_LAMBDA {
-      return is_weighted ? Sweep<true>(parameters, begin, end, gradient)
-                         : Sweep<false>(parameters, begin, end, gradient);
+      return is_weighted ? SweepRange<true>(parameters, first + begin, first + end, gradient)
+                         : SweepRange<false>(parameters, first + begin, first + end, gradient);
     });
   });
 }

@@ -22,6 +22,10 @@ class FrameFunction {
 
   int num_parameters() const { return first_parameter_.back(); }
   void Evaluate(const Scalar* parameters, double* cost, Scalar* gradient) const;
+  /// The steps of Evaluate, see FieldEnergy.
+  void Expand(const Scalar* parameters) const;
+  double Sweep(std::size_t begin, std::size_t end, const Scalar* parameters, Scalar* gradient) const;
+  Scalar* RowOf(std::size_t v) const { return rows_[v].values; }
   /// The turned frames, rotations to the last bits of a double.
   std::vector<Eigen::Matrix3d> FramesOf(const std::vector<Scalar>& parameters) const;
 
@@ -38,9 +42,9 @@ class FrameFunction {
 
   int NumParameters(std::size_t v) const { return first_parameter_[v + 1] - first_parameter_[v]; }
   void GatherTurns(const Scalar* parameters, std::size_t first, Lanes<Scalar>* turns) const;
-  void Expand(const Scalar* parameters, std::size_t begin, std::size_t end) const;
+  void ExpandRange(const Scalar* parameters, std::size_t begin, std::size_t end) const;
   template <bool kWeighted>
-  double Sweep(const Scalar* parameters, std::size_t begin, std::size_t end, Scalar* gradient) const;
+  double SweepRange(const Scalar* parameters, std::size_t begin, std::size_t end, Scalar* gradient) const;
   double AddSoftAlignment(std::size_t v, Scalar* gradient) const;
 
   const SweepGraph& graph_;

@@ -1,10 +1,13 @@
 #include "octupole/solvers/internal/sweep_graph.h"
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 
 namespace octupole::internal {
 
-SweepGraph::SweepGraph(const FieldGraph& graph) : alignments(graph.alignments), sum_of_weights(SumOfWeights(graph)) {
+SweepGraph::SweepGraph(const FieldGraph& graph, std::size_t num_owned)
+    : alignments(graph.alignments), num_owned(num_owned), sum_of_weights(SumOfWeights(graph)) {
   constexpr std::size_t kMaxLanes = 8;
   const std::size_t num_vertices = graph.num_vertices();
   const std::size_t num_rows = (num_vertices + kMaxLanes) / kMaxLanes * kMaxLanes;
@@ -15,6 +18,7 @@ SweepGraph::SweepGraph(const FieldGraph& graph) : alignments(graph.alignments), 
     if (edge.weight == 0) continue;
     is_weighted |= edge.weight != 1;
     for (const int v : {edge.a, edge.b}) {
+      if (static_cast<std::size_t>(v) >= num_owned) continue;
       ++first_group[v + 1];
       weight_sums[v] += edge.weight;
     }
@@ -26,6 +30,7 @@ SweepGraph::SweepGraph(const FieldGraph& graph) : alignments(graph.alignments), 
   std::vector<std::size_t> next(num_vertices);
   for (std::size_t v = 0; v < num_vertices; ++v) next[v] = 4 * static_cast<std::size_t>(first_group[v]);
   const auto add = [&](int from, int to, double weight) {
+    if (static_cast<std::size_t>(from) >= num_owned) return;
     const std::size_t slot = next[from]++;
     neighbours[slot] = to;
     if (is_weighted) weights[slot] = weight;
@@ -35,6 +40,14 @@ SweepGraph::SweepGraph(const FieldGraph& graph) : alignments(graph.alignments), 
     add(edge.a, edge.b, edge.weight);
     add(edge.b, edge.a, edge.weight);
   }
+}
+
+std::size_t CheckNumOwned(const char* caller, const FieldGraph& graph, std::optional<std::size_t> num_owned) {
+  CheckFieldGraph(graph);
+  if (!num_owned) return graph.num_vertices();
+  if (*num_owned <= graph.num_vertices()) return *num_owned;
+  throw std::invalid_argument(std::string(caller) + ": " + std::to_string(*num_owned) +
+                              " owned vertices in a graph of " + std::to_string(graph.num_vertices()));
 }
 
 }  // namespace octupole::internal
