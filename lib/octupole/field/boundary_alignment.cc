@@ -55,12 +55,12 @@ void CheckFeatureAngle(double feature_angle_deg) {
 }
 
 // AlignToSurface; `cases` become those of the vertices.
-BoundaryAlignment AlignVertices(const TriangleMesh& surface, double feature_angle_deg, OpenBoundary open_boundary,
-                                std::vector<SurfaceCase>* cases) {
+BoundaryAlignment AlignVertices(const TriangleMesh& surface, double feature_angle_deg, bool has_marked_features,
+                                OpenBoundary open_boundary, std::vector<SurfaceCase>* cases) {
   const std::vector<Eigen::Vector3d>& points = surface.points;
   const auto corners_of = SurfaceCorners(points, surface.triangles);
   BoundaryAlignment result;
-  result.has_marked_features = !surface.feature_edges.empty();
+  result.has_marked_features = has_marked_features;
   result.feature_edges =
       result.has_marked_features ? surface.feature_edges : SharpEdges(points, surface.triangles, feature_angle_deg);
   auto edges = result.feature_edges;
@@ -125,7 +125,7 @@ void AddJunctions(const Interfaces& interfaces, double feature_angle_deg, Triang
 BoundaryAlignment AlignToSurface(const TriangleMesh& surface, double feature_angle_deg, OpenBoundary open_boundary) {
   CheckFeatureAngle(feature_angle_deg);
   std::vector<SurfaceCase> cases;
-  return AlignVertices(surface, feature_angle_deg, open_boundary, &cases);
+  return AlignVertices(surface, feature_angle_deg, !surface.feature_edges.empty(), open_boundary, &cases);
 }
 
 BoundaryAlignment AlignToBoundary(const TetMesh& mesh, const BoundaryOptions& options) {
@@ -136,11 +136,13 @@ BoundaryAlignment AlignToBoundary(const TetMesh& mesh, const BoundaryOptions& op
   surface.triangles.insert(surface.triangles.end(), interfaces.triangles.begin(), interfaces.triangles.end());
   const auto seams = FindSeams(mesh, surface.triangles, options.feature_angle_deg);
   RemoveEdges(seams, &surface.feature_edges);
-  if (!interfaces.triangles.empty() && !surface.feature_edges.empty()) {
+  const bool has_marked_features = options.has_marked_features || !surface.feature_edges.empty();
+  if (!interfaces.triangles.empty() && has_marked_features) {
     AddJunctions(interfaces, options.feature_angle_deg, &surface);
   }
   std::vector<SurfaceCase> cases;
-  BoundaryAlignment result = AlignVertices(surface, options.feature_angle_deg, OpenBoundary::kAligned, &cases);
+  BoundaryAlignment result =
+      AlignVertices(surface, options.feature_angle_deg, has_marked_features, OpenBoundary::kAligned, &cases);
   result.boundary_triangles = std::move(boundary_triangles);
   result.num_seam_edges = seams.size();
   std::vector<bool> is_on_interface(mesh.points.size(), false);

@@ -74,6 +74,8 @@ BoundaryAlignment AlignToSurface(const TriangleMesh& surface, double feature_ang
 struct BoundaryOptions {
   double feature_angle_deg = 40;
   RegionUse regions = RegionUse::kAutomatic;
+  /// That features are marked although this mesh has none: it is a part of one where others do.
+  bool has_marked_features = false;
 };
 
 /// AlignToSurface of one surface that consists of the boundary and the interfaces inside the mesh (FindInterfaces): so

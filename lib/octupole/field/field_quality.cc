@@ -28,12 +28,12 @@ void CheckFrames(const char* caller, const std::vector<Eigen::Vector3d>& points,
 
 NormalErrors MeasureNormals(const std::vector<Eigen::Vector3d>& points,
                             const std::vector<std::array<int, 3>>& triangles,
-                            const std::vector<Eigen::Matrix3d>& frames) {
+                            const std::vector<Eigen::Matrix3d>& frames, std::optional<std::size_t> num_measured) {
   CheckFrames("MeasureNormals", points, frames);
   const auto corners_of = SurfaceCorners(points, triangles);
   NormalErrors errors;
   double sum_of_squares = 0;
-  for (std::size_t v = 0; v < points.size(); ++v) {
+  for (std::size_t v = 0; v < num_measured.value_or(points.size()); ++v) {
     if (corners_of[v].empty() || !NormalsAgree(corners_of[v], kSmoothAngleDeg)) continue;
     const Eigen::Vector3d normal = MeanNormal(corners_of[v]);
     double angle = M_PI;

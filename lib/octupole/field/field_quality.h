@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "octupole/mesh/tet_mesh.h"
@@ -22,10 +23,12 @@ struct NormalErrors {
 
 /// \param frames one rotation per point, its columns the axes.
 /// \param triangles neighbours oriented alike, such as BoundaryTriangles or those of Interfaces.
+/// \param num_measured the points to be measured, the first: all, if not given.
 /// \throw std::invalid_argument unless there is one frame per point.
 NormalErrors MeasureNormals(const std::vector<Eigen::Vector3d>& points,
                             const std::vector<std::array<int, 3>>& triangles,
-                            const std::vector<Eigen::Matrix3d>& frames);
+                            const std::vector<Eigen::Matrix3d>& frames,
+                            std::optional<std::size_t> num_measured = std::nullopt);
 
 /// What can be said of a field of frames on a tet mesh without knowing how it was computed. The same numbers for any
 /// method and any degree, so fields can be compared by them.
