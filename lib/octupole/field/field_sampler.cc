@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
-#include <numeric>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -16,6 +15,7 @@
 
 #include "octupole/frames/frame.h"
 #include "octupole/mesh/mesh_topology.h"
+#include "octupole/mesh/morton_order.h"
 
 namespace octupole {
 namespace {
@@ -56,31 +56,6 @@ Vector3d NearestInTriangle(const Vector3d& p, const Vector3d& a, const Vector3d&
   }
   const double sum = va + vb + vc;
   return {va / sum, vb / sum, vc / sum};
-}
-
-// The order of points along Morton's curve through a grid of 1024^3 cells: each near the one before, so that the way
-// there is short and lies in the cache. Half the time for points in no order.
-std::vector<std::size_t> MortonOrder(const std::vector<Vector3d>& points) {
-  Box box;  // of halves, whose differences are finite
-  for (const Vector3d& point : points) box.extend(point / 2);
-  const double extent = points.empty() ? 0 : box.sizes().maxCoeff();
-  std::vector<std::size_t> order(points.size());
-  std::iota(order.begin(), order.end(), 0);
-  if (extent == 0) return order;
-  constexpr int kBits = 10;
-  std::vector<std::pair<std::uint32_t, std::size_t>> codes(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vector3d place = (points[i] / 2 - box.min()) / extent;
-    const Eigen::Vector3i cell = (((1 << kBits) - 1) * place).cast<int>();
-    std::uint32_t code = 0;
-    for (int bit = kBits - 1; bit >= 0; --bit) {
-      for (int k = 0; k < 3; ++k) code = code << 1 | (cell[k] >> bit & 1);
-    }
-    codes[i] = {code, i};
-  }
-  std::sort(codes.begin(), codes.end());
-  std::transform(codes.begin(), codes.end(), order.begin(), [](const auto& code) { return code.second; });
-  return order;
 }
 
 template <std::size_t kSize>
@@ -228,6 +203,7 @@ FieldSamples FieldSampler::Sample(const std::vector<Vector3d>& points) const {
   samples.frames.resize(points.size());
   samples.is_inside.resize(points.size());
   int tet = -1, triangle = 0;
+  // Half the time for points in no order.
   for (const std::size_t i : MortonOrder(points)) {
     Mixture mixture;
     if (tet < 0 || !trees_->Contains(tet, points[i], &mixture)) tet = trees_->Find(points[i], &mixture);
