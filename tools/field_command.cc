@@ -51,19 +51,13 @@ struct Arguments {
   FieldMethod method = FieldMethod::kPenalty;
   /// Its degree is by default 3, and 4 for the methods that know no other.
   SolverArguments solver;
-  /// If given, it finds the features, whatever the mesh marks.
-  std::optional<double> feature_angle;
-  RegionUse regions = RegionUse::kAutomatic;
-  EdgeWeights weights = EdgeWeights::kUniform;
+  AlignmentArguments alignment;
   std::filesystem::path constraints;
   /// If given, the constraints are soft.
   std::optional<double> constraint_weight;
   /// An earlier field.
   std::filesystem::path start;
 };
-
-const std::map<std::string, EdgeWeights> kWeightsOfName = {{"uniform", EdgeWeights::kUniform},
-                                                           {"fem", EdgeWeights::kFiniteElement}};
 
 TetMesh LoadMesh(const Arguments& arguments, std::vector<std::string>* warnings) {
 #ifdef OCTUPOLE_WITH_GMSH
@@ -150,14 +144,14 @@ void RunField(const Arguments& arguments) {
 
   Progress progress(&guard, arguments.solver.quiet);
   FieldOptions<kDegree> options;
-  if (arguments.feature_angle) {
-    options.feature_angle_deg = *arguments.feature_angle;
+  if (arguments.alignment.feature_angle) {
+    options.feature_angle_deg = *arguments.alignment.feature_angle;
     mesh.feature_edges.clear();
     mesh.feature_points.clear();
   }
   options.method = arguments.method;
-  options.regions = arguments.regions;
-  options.edge_weights = arguments.weights;
+  options.regions = arguments.alignment.regions;
+  options.edge_weights = arguments.alignment.weights;
   SetSolverOptions(arguments.solver, &progress, &options);
   if (!arguments.constraints.empty()) options.constraints = ReadConstraints(arguments.constraints, mesh.points.size());
   options.constraint_weight = arguments.constraint_weight;
@@ -223,7 +217,7 @@ void RunField(const Arguments& arguments) {
       {"interfaces", interface_report},
       {"warnings", warnings},
       {"constraints", DescribeConstraints(field.constraints)},
-      {"weights", arguments.weights == EdgeWeights::kUniform ? "uniform" : "fem"},
+      {"weights", arguments.alignment.weights == EdgeWeights::kUniform ? "uniform" : "fem"},
       {"start", arguments.start.string()},
       {"method", NameOf(arguments.method)},
       {"degree", kDegree},
@@ -294,25 +288,7 @@ void AddFieldCommand(CLI::App* app) {
           "penalty, or of the classics in degree 4 ray-sokolov, huang or mbo")
       ->check(CLI::IsMember({"penalty", "ray-sokolov", "huang", "mbo"}))
       ->option_text("NAME [penalty]");
-  command
-      ->add_option(
-          "--feature-angle", arguments->feature_angle,
-          "Between normals, above which an edge is a feature; if given, features that the mesh marks are ignored")
-      ->check(CLI::Range(1., 179.))
-      ->option_text("DEG [40]");
-  const auto add_regions = [&](const char* flag, RegionUse use, const char* what) {
-    return command->add_flag_callback(
-        flag, [arguments, use] { arguments->regions = use; }, what);
-  };
-  add_regions("--ignore-regions", RegionUse::kIgnore, "Follow no surfaces inside the mesh")
-      ->excludes(add_regions("--follow-regions", RegionUse::kFollow,
-                             "Follow all faces between regions and tagged triangles inside, ragged ones too"));
-  command
-      ->add_option_function<std::string>(
-          "--weights", [arguments](const std::string& name) { arguments->weights = kWeightsOfName.at(name); },
-          "Of the mesh's edges: uniform, or fem (finite elements), which heed their lengths")
-      ->check(CLI::IsMember({"uniform", "fem"}))
-      ->option_text("NAME [uniform]");
+  AddAlignmentArguments(command, &arguments->alignment);
   command
       ->add_option(
           "--constraints", arguments->constraints,

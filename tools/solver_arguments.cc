@@ -4,12 +4,16 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <map>
 
 #include "octupole/solvers/method_names.h"
 #include "octupole/solvers/solver_presets.h"
 
 namespace octupole {
 namespace {
+
+const std::map<std::string, EdgeWeights> kWeightsOfName = {{"uniform", EdgeWeights::kUniform},
+                                                           {"fem", EdgeWeights::kFiniteElement}};
 
 void LogStep(const StepSummary& step) {
   if (step.num_vertices == 0) {
@@ -57,6 +61,28 @@ void AddSolverArguments(CLI::App* command, SolverArguments* arguments) {
       ->option_text("N");
   CLI::Option* quiet = command->add_flag("--quiet", arguments->quiet, "Print errors only");
   command->add_flag("--verbose", arguments->verbose, "Log each step of the solver to stderr")->excludes(quiet);
+}
+
+void AddAlignmentArguments(CLI::App* command, AlignmentArguments* arguments) {
+  command
+      ->add_option(
+          "--feature-angle", arguments->feature_angle,
+          "Between normals, above which an edge is a feature; if given, features that the mesh marks are ignored")
+      ->check(CLI::Range(1., 179.))
+      ->option_text("DEG [40]");
+  const auto add_regions = [&](const char* flag, RegionUse use, const char* what) {
+    return command->add_flag_callback(
+        flag, [arguments, use] { arguments->regions = use; }, what);
+  };
+  add_regions("--ignore-regions", RegionUse::kIgnore, "Follow no surfaces inside the mesh")
+      ->excludes(add_regions("--follow-regions", RegionUse::kFollow,
+                             "Follow all faces between regions and tagged triangles inside, ragged ones too"));
+  command
+      ->add_option_function<std::string>(
+          "--weights", [arguments](const std::string& name) { arguments->weights = kWeightsOfName.at(name); },
+          "Of the mesh's edges: uniform, or fem (finite elements), which heed their lengths")
+      ->check(CLI::IsMember({"uniform", "fem"}))
+      ->option_text("NAME [uniform]");
 }
 
 template <int kDegree>

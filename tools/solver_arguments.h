@@ -46,6 +46,17 @@ std::string TwoDecimals(double number);
 /// Prints what is odd about a file, one line each.
 void PrintWarnings(const std::filesystem::path& file, const std::vector<std::string>& warnings);
 
+/// What the commands have in common that align a field with a tet mesh.
+struct AlignmentArguments {
+  /// If given, it finds the features, whatever the mesh marks.
+  std::optional<double> feature_angle;
+  RegionUse regions = RegionUse::kAutomatic;
+  EdgeWeights weights = EdgeWeights::kUniform;
+};
+
+/// Adds --feature-angle, --ignore-regions, --follow-regions and --weights. `arguments` must outlive the parsing.
+void AddAlignmentArguments(CLI::App* command, AlignmentArguments* arguments);
+
 class Stopwatch {
  public:
   /// Seconds since the construction or the last lap.

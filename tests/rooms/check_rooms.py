@@ -13,7 +13,7 @@ import pathlib
 import re
 import sys
 
-LAYERS = ["lib", "cost_functions", "solvers"]
+LAYERS = ["lib", "cost_functions", "solvers", "distributed"]
 
 # Room -> the rooms it may use. A room below never names one above.
 MATHEMATICS = ["harmonics"]
@@ -30,14 +30,17 @@ ROOMS = {
     "adaptors": ["io", "field", "singularities"] + SHAPES,
     "cost_functions": ["maps", "field", "frames"] + MATHEMATICS,
     "solvers": ["cost_functions", "maps", "field", "singularities"] + SHAPES,
+    "distributed": ["solvers", "io", "field", "singularities"] + SHAPES,
 }
 
 # Library -> the rooms that may include it; all others are free to use Eigen and the standard library only.
 LIBRARIES = {
-    "ceres": ["cost_functions", "solvers"],
+    "ceres": ["cost_functions", "solvers", "distributed"],
     "gmsh": ["adaptors"],
+    "mpi": ["distributed"],
     "OpenMesh": ["adaptors"],
     "openvdb": ["adaptors"],
+    "petsc": ["distributed"],
     "pugixml": ["io"],
     "tbb": ["adaptors"],
     "zlib": ["io"],
@@ -51,6 +54,8 @@ def problem_of(room, layer, is_public, target, layer_of):
     parts = target.split("/")
     if parts[0] != "octupole":
         library = re.split(r"[./]", parts[0])[0]
+        if library.startswith("petsc"):
+            library = "petsc"  # petscdm.h, petsctao.h and so on
         if library in LIBRARIES and room not in LIBRARIES[library]:
             return f"only {', '.join(LIBRARIES[library])} may use {library}"
         return None

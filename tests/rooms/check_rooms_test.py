@@ -41,6 +41,8 @@ class Rooms(unittest.TestCase):
             ("lib/octupole/io/internal/vtk_cells.cc", ' #  include "octupole/solvers/lbfgs.h"', "io may not use solvers"),
             ("lib/octupole/field/alignment.cc", "#include <ceres/ceres.h>", "may use ceres"),
             ("lib/octupole/io/mesh_io.cc", "#include <gmsh.h>", "may use gmsh"),
+            ("solvers/octupole/solvers/lbfgs.h", "#include <petsctao.h>", "may use petsc"),
+            ("solvers/octupole/solvers/fast_solver.cc", '#include "octupole/distributed/mesh_part.h"', "solvers may not use"),
             ("lib/octupole/io/mesh_io.h", '#include "octupole/io/internal/vtk_cells.h"', "a public header"),
             ("solvers/octupole/solvers/lbfgs.cc", '#include "octupole/frames/internal/symmetric_eigen.h"', "internal to"),
             ("lib/octupole/mesh/tet_mesh.cc", '#include "octupole/tet_mesh/x.h"', "there is no room tet_mesh"),

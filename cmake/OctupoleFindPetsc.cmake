@@ -1,0 +1,15 @@
+# octupole_find_petsc(): the target PETSc::petsc, with MPI. Of what pkg-config says of PETSc the compiler's flags are left
+# out: they are for whoever packaged it. PETSc's header for HDF5 includes that library's, of the kind with MPI.
+function(octupole_find_petsc)
+  if(TARGET PETSc::petsc)
+    return()
+  endif()
+  find_package(MPI REQUIRED COMPONENTS CXX)
+  find_package(PkgConfig REQUIRED)
+  pkg_check_modules(PETSC REQUIRED PETSc>=3.18)
+  pkg_search_module(PETSC_HDF5 REQUIRED hdf5-mpi hdf5)
+  add_library(PETSc::petsc INTERFACE IMPORTED GLOBAL)
+  target_include_directories(PETSc::petsc INTERFACE ${PETSC_INCLUDE_DIRS} ${PETSC_HDF5_INCLUDE_DIRS})
+  target_compile_definitions(PETSc::petsc INTERFACE OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
+  target_link_libraries(PETSc::petsc INTERFACE ${PETSC_LINK_LIBRARIES} MPI::MPI_CXX)
+endfunction()
