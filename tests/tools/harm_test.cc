@@ -211,7 +211,7 @@ TEST_F(Harm, OutOfMemorySaysDuringWhatAndHowMuchIsNeeded) {
   const Outcome reading = Run("info large.mesh", "ulimit -v 100000; ");
   EXPECT_EQ(reading.exit_code, 1);
   EXPECT_THAT(reading.err,
-              HasSubstr("out of memory while reading large.mesh; a field needs about 1.4 GB for a million"));
+              HasSubstr("out of memory while reading large.mesh; a field needs about 0.9 GB for a million"));
   EXPECT_EQ(std::count(reading.err.begin(), reading.err.end(), '\n'), 1) << reading.err;
 }
 

@@ -14,8 +14,9 @@ namespace octupole {
 /// (FieldEnergy) by MinimizeLbfgs, from coarse to fine, and finishes on frames.
 ///
 ///  1. The graph is coarsened again and again (CoarsenGraph).
-///  2. On one of the coarse graphs several starts are tried: random ones, one that comes from the coarsest graph, and
-///     the linear one, that of SolveRaySokolov. The lowest after polishing wins.
+///  2. On one of the coarse graphs several starts are tried: the linear one, that of SolveRaySokolov, random ones, one
+///     that comes from the coarsest graph, and with more than five also random ones found in the other degree. The
+///     better half are compared on the next finer graph, and the lowest after polishing wins.
 ///  3. The field is copied to the next finer graph and minimised there, until the finest.
 ///  4. It is projected to frames, which are polished: their FrameDifference<4>, summed over the edges, is minimised
 ///     (FrameEnergy).
@@ -26,9 +27,10 @@ namespace octupole {
 /// Any graph will do: disconnected, without any alignment, with isolated vertices. The result does not depend on the
 /// number of threads.
 ///
+/// Floats are minimised in until their rounding might matter.
+///
 /// \throw std::invalid_argument when the graph is malformed (see CheckFieldGraph), a weight is negative or not finite,
-/// or
-///     num_threads is below 1.
+/// or num_threads or num_starts is below 1.
 template <int kDegree>
 FieldSolution<kDegree> SolveFast(const FieldGraph& graph, const EnergyWeights& weights,
                                  const MinimizerOptions& options = {});

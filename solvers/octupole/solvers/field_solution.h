@@ -30,8 +30,7 @@ struct StepSummary {
 struct MinimizerOptions {
   /// Seed of the random starts.
   std::uint32_t seed = 0;
-  /// Of SolveFast: how many starts it tries. More find lower energies, in time in proportion; those of 25 are compared
-  /// on graphs of up to 10,000 vertices instead of 2000.
+  /// Of SolveFast: how many starts it tries. More find lower energies, in time that grows with them.
   int num_starts = 5;
   /// Of all minimisations together.
   int max_iterations = 5000;

@@ -88,8 +88,10 @@ OCTUPOLE_INLINE void UpdateBlock(HistoryBlock* history, int slot, const Points<S
   Lanes<Scalar> squared = {}, largest = {};
   for (std::size_t i = 0; i < kBlock; i += kStep) {
     const Lanes<Scalar> g = At(points.gradient + i);
-    Store<Scalar>(At(points.x + i) - At(points.last_x + i), step + i);
-    Store<Scalar>(g - At(points.last_gradient + i), change + i);
+    const Lanes<Scalar> s = At(points.x + i) - At(points.last_x + i);
+    const Lanes<Scalar> y = g - At(points.last_gradient + i);
+    Store<Scalar>(s, step + i);
+    Store<Scalar>(y, change + i);
     squared += g * g;
     const Lanes<Scalar> magnitude = g < Lanes<Scalar>{} ? -g : g;
     largest = magnitude > largest ? magnitude : largest;
