@@ -3,6 +3,7 @@
 #include <gmsh.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <fstream>
@@ -11,6 +12,8 @@
 #include <string>
 #include <unordered_map>
 #include <vector>
+
+#include "octupole/io/internal/lower_case.h"
 
 namespace octupole {
 namespace {
