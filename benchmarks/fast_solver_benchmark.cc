@@ -20,10 +20,10 @@
 #include <vector>
 
 #include "ball_mesh.h"
-#include "octupole/field/aligned_frame.h"
-#include "octupole/field/boundary_alignment.h"
+#include "octupole/alignment/aligned_frame.h"
+#include "octupole/alignment/boundary_alignment.h"
 #include "octupole/field/field_quality.h"
-#include "octupole/io/mesh_io.h"
+#include "octupole/readers/tet_mesh_reader.h"
 #include "octupole/solvers/fast_solver.h"
 #include "octupole/solvers/field_energy.h"
 #include "octupole/solvers/field_solver.h"

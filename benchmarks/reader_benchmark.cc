@@ -11,9 +11,9 @@
 #include <random>
 
 #include "mesh_writers.h"
-#include "octupole/io/mesh_io.h"
 #include "octupole/io/vtu_writer.h"
 #include "octupole/mesh/box_mesh.h"
+#include "octupole/readers/tet_mesh_reader.h"
 #include "test_files.h"
 
 namespace octupole {

@@ -21,7 +21,7 @@
 #include "child_process.h"
 #include "interruption.h"
 #include "octupole/io/atomic_file.h"
-#include "octupole/io/mesh_io.h"
+#include "octupole/readers/tet_mesh_reader.h"
 #include "output_files.h"
 #include "solver_arguments.h"
 

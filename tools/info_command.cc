@@ -9,7 +9,7 @@
 
 #include "activity.h"
 #include "octupole/field/mesh_summary.h"
-#include "octupole/io/mesh_io.h"
+#include "octupole/readers/tet_mesh_reader.h"
 #include "output_files.h"
 
 namespace octupole {

@@ -24,7 +24,7 @@
 #include "octupole/distributed/distributed_solver.h"
 #include "octupole/distributed/field_output.h"
 #include "octupole/distributed/mesh_part.h"
-#include "octupole/io/mesh_io.h"
+#include "octupole/readers/tet_mesh_reader.h"
 #include "octupole/solvers/method_names.h"
 #include "output_files.h"
 #include "solver_arguments.h"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "octupole/field/boundary_alignment.h"
-#include "octupole/field/constraints.h"
+#include "octupole/alignment/boundary_alignment.h"
+#include "octupole/alignment/constraints.h"
 
 namespace octupole {
 

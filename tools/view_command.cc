@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "octupole/alignment/interfaces.h"
 #include "octupole/field/field_quality.h"
-#include "octupole/field/interfaces.h"
 #include "octupole/io/field_reader.h"
 #include "octupole/mesh/mesh_topology.h"
 #include "octupole/singularities/singular_triangles.h"

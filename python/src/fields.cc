@@ -14,7 +14,7 @@
 
 #include "arrays.h"
 #include "bindings.h"
-#include "octupole/field/constraints.h"
+#include "octupole/alignment/constraints.h"
 #include "octupole/field/cross_field.h"
 #include "octupole/field/field_quality.h"
 #include "octupole/field/field_sampler.h"

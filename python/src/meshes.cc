@@ -8,12 +8,12 @@
 
 #include "arrays.h"
 #include "bindings.h"
-#include "octupole/io/mesh_io.h"
 #include "octupole/mesh/box_mesh.h"
 #include "octupole/mesh/mesh_arrays.h"
 #include "octupole/mesh/mesh_inspection.h"
 #include "octupole/mesh/tet_mesh.h"
 #include "octupole/mesh/triangle_mesh.h"
+#include "octupole/readers/tet_mesh_reader.h"
 #include "surface_mesh.h"
 #ifdef OCTUPOLE_WITH_OPENMESH
 #include "octupole/adaptors/triangle_mesh_reader.h"

@@ -13,10 +13,10 @@
 #include <stdexcept>
 
 #include "corpus.h"
-#include "octupole/io/mesh_io.h"
 #include "octupole/mesh/box_mesh.h"
 #include "octupole/mesh/mesh_topology.h"
 #include "octupole/mesh/surface_corners.h"
+#include "octupole/readers/tet_mesh_reader.h"
 #include "octupole/solvers/field_solver.h"
 
 namespace octupole {

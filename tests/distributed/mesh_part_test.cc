@@ -12,9 +12,9 @@
 
 #include "mesh_writers.h"
 #include "octupole/distributed/distributed_error.h"
-#include "octupole/io/mesh_io.h"
 #include "octupole/io/vtu_writer.h"
 #include "octupole/mesh/box_mesh.h"
+#include "octupole/readers/tet_mesh_reader.h"
 #include "ranks.h"
 
 namespace octupole {

@@ -23,14 +23,16 @@ ROOMS = {
     "frames": MATHEMATICS,
     "mesh": [],
     "singularities": SHAPES,
-    "field": ["singularities"] + SHAPES,
-    "maps": ["field", "singularities"] + SHAPES,
-    "io": ["maps", "field", "singularities"] + SHAPES,
-    "view": ["io", "maps", "field", "singularities"] + SHAPES,
-    "adaptors": ["io", "field", "singularities"] + SHAPES,
-    "cost_functions": ["maps", "field", "frames"] + MATHEMATICS,
-    "solvers": ["cost_functions", "maps", "field", "singularities"] + SHAPES,
-    "distributed": ["solvers", "io", "field", "singularities"] + SHAPES,
+    "alignment": SHAPES,
+    "field": ["alignment", "singularities"] + SHAPES,
+    "maps": ["field", "alignment", "singularities"] + SHAPES,
+    "readers": ["mesh"],
+    "io": ["readers", "maps", "field", "alignment", "singularities"] + SHAPES,
+    "view": ["io", "maps", "field", "alignment", "singularities"] + SHAPES,
+    "adaptors": ["io", "readers", "field", "alignment", "singularities"] + SHAPES,
+    "cost_functions": ["maps", "field", "alignment", "frames"] + MATHEMATICS,
+    "solvers": ["cost_functions", "maps", "field", "alignment", "singularities"] + SHAPES,
+    "distributed": ["solvers", "io", "readers", "field", "alignment", "singularities"] + SHAPES,
 }
 
 # Library -> the rooms that may include it; all others are free to use Eigen and the standard library only.
@@ -41,9 +43,9 @@ LIBRARIES = {
     "OpenMesh": ["adaptors"],
     "openvdb": ["adaptors"],
     "petsc": ["distributed"],
-    "pugixml": ["io"],
+    "pugixml": ["io", "readers"],
     "tbb": ["adaptors"],
-    "zlib": ["io"],
+    "zlib": ["io", "readers"],
 }
 
 INCLUDE = re.compile(r'\s*#\s*include\s*[<"]([^>"]+)[>"]')

@@ -36,14 +36,14 @@ class Rooms(unittest.TestCase):
 
     def test_each_kind_of_broken_line_is_noticed(self):
         lines = [
-            ("lib/octupole/mesh/tet_mesh.h", '#include "octupole/field/alignment.h"', "mesh may not use field"),
-            ("lib/octupole/harmonics/rotation.cc", "#include <octupole/io/mesh_io.h>", "harmonics may not use io"),
-            ("lib/octupole/io/internal/vtk_cells.cc", ' #  include "octupole/solvers/lbfgs.h"', "io may not use solvers"),
-            ("lib/octupole/field/alignment.cc", "#include <ceres/ceres.h>", "may use ceres"),
-            ("lib/octupole/io/mesh_io.cc", "#include <gmsh.h>", "may use gmsh"),
+            ("lib/octupole/mesh/tet_mesh.h", '#include "octupole/alignment/alignment.h"', "mesh may not use alignment"),
+            ("lib/octupole/harmonics/rotation.cc", "#include <octupole/readers/tet_mesh_reader.h>", "harmonics may not use readers"),
+            ("lib/octupole/readers/internal/vtk_cells.cc", ' #  include "octupole/solvers/lbfgs.h"', "readers may not use solvers"),
+            ("lib/octupole/alignment/alignment.cc", "#include <ceres/ceres.h>", "may use ceres"),
+            ("lib/octupole/readers/tet_mesh_reader.cc", "#include <gmsh.h>", "may use gmsh"),
             ("solvers/octupole/solvers/lbfgs.h", "#include <petsctao.h>", "may use petsc"),
             ("solvers/octupole/solvers/fast_solver.cc", '#include "octupole/distributed/mesh_part.h"', "solvers may not use"),
-            ("lib/octupole/io/mesh_io.h", '#include "octupole/io/internal/vtk_cells.h"', "a public header"),
+            ("lib/octupole/readers/tet_mesh_reader.h", '#include "octupole/readers/internal/vtk_cells.h"', "a public header"),
             ("solvers/octupole/solvers/lbfgs.cc", '#include "octupole/frames/internal/symmetric_eigen.h"', "internal to"),
             ("lib/octupole/mesh/tet_mesh.cc", '#include "octupole/tet_mesh/x.h"', "there is no room tet_mesh"),
         ]

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "method_checks.h"
-#include "octupole/field/aligned_frame.h"
+#include "octupole/alignment/aligned_frame.h"
 #include "octupole/solvers/field_solver.h"
 #include "octupole/solvers/solver_presets.h"
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "octupole/field/aligned_frame.h"
+#include "octupole/alignment/aligned_frame.h"
 #include "octupole/mesh/box_mesh.h"
 #include "octupole/solvers/field_energy.h"
 #include "octupole/solvers/frame_energy.h"

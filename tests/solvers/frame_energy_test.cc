@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "gradient_check.h"
-#include "octupole/field/aligned_frame.h"
-#include "octupole/field/alignment.h"
+#include "octupole/alignment/aligned_frame.h"
+#include "octupole/alignment/alignment.h"
 #include "octupole/frames/frame.h"
 #include "octupole/harmonics/rotation.h"
 #include "octupole/mesh/box_mesh.h"

@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "octupole/field/aligned_frame.h"
-#include "octupole/field/alignment.h"
+#include "octupole/alignment/aligned_frame.h"
+#include "octupole/alignment/alignment.h"
 #include "octupole/field/field_graph.h"
 #include "octupole/mesh/box_mesh.h"
 #include "octupole/solvers/field_energy.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "method_checks.h"
-#include "octupole/field/alignment.h"
+#include "octupole/alignment/alignment.h"
 #include "octupole/field/field_quality.h"
 #include "octupole/solvers/fast_solver.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "ball_mesh.h"
-#include "octupole/field/boundary_alignment.h"
+#include "octupole/alignment/boundary_alignment.h"
 #include "octupole/frames/frame.h"
 #include "octupole/harmonics/rotation.h"
 #include "octupole/mesh/box_mesh.h"

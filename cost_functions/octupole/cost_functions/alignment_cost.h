@@ -2,8 +2,8 @@
 
 #include <ceres/autodiff_cost_function.h>
 
+#include "octupole/alignment/alignment.h"
 #include "octupole/cost_functions/cost_weight.h"
-#include "octupole/field/alignment.h"
 #include "octupole/harmonics/rotation.h"
 
 namespace octupole {

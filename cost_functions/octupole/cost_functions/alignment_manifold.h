@@ -2,7 +2,7 @@
 
 #include <ceres/manifold.h>
 
-#include "octupole/field/alignment.h"
+#include "octupole/alignment/alignment.h"
 
 namespace octupole {
 

@@ -9,13 +9,13 @@
 #include <string>
 #include <utility>
 
+#include "octupole/alignment/aligned_frame.h"
 #include "octupole/distributed/distributed_error.h"
 #include "octupole/distributed/internal/graph_level.h"
 #include "octupole/distributed/internal/halo.h"
 #include "octupole/distributed/internal/part_alignment.h"
 #include "octupole/distributed/internal/petsc.h"
 #include "octupole/distributed/internal/tao_minimizer.h"
-#include "octupole/field/aligned_frame.h"
 #include "octupole/harmonics/rotation.h"
 #include "octupole/solvers/fast_solver.h"
 #include "octupole/solvers/field_energy.h"

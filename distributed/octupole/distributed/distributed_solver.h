@@ -8,10 +8,10 @@
 #include <functional>
 #include <vector>
 
+#include "octupole/alignment/alignment.h"
+#include "octupole/alignment/interfaces.h"
 #include "octupole/distributed/mesh_part.h"
-#include "octupole/field/alignment.h"
 #include "octupole/field/field_graph.h"
-#include "octupole/field/interfaces.h"
 #include "octupole/harmonics/harmonics.h"
 #include "octupole/solvers/field_problem.h"
 #include "octupole/solvers/field_solution.h"

@@ -12,7 +12,7 @@
 #include "octupole/distributed/internal/partition.h"
 #include "octupole/distributed/internal/petsc.h"
 #include "octupole/distributed/internal/plex.h"
-#include "octupole/io/mesh_io.h"
+#include "octupole/readers/tet_mesh_reader.h"
 
 namespace octupole {
 namespace {

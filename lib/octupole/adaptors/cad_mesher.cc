@@ -13,7 +13,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "octupole/io/internal/lower_case.h"
+#include "octupole/readers/internal/lower_case.h"
 
 namespace octupole {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "octupole/field/boundary_alignment.h"
+#include "octupole/alignment/boundary_alignment.h"
 #include "octupole/field/field_graph.h"
 #include "octupole/mesh/triangle_mesh.h"
 

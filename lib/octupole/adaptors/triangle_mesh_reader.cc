@@ -13,8 +13,8 @@
 #include <OpenMesh/Core/IO/importer/ImporterT.hh>
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 
-#include "octupole/io/internal/lower_case.h"
-#include "octupole/io/internal/text_tokenizer.h"
+#include "octupole/readers/internal/lower_case.h"
+#include "octupole/readers/internal/text_tokenizer.h"
 
 namespace octupole {
 namespace {
@@ -145,7 +145,8 @@ void CheckStl(const std::filesystem::path& path) {
   }
   internal::TextTokenizer tokens(path.string(), bytes);
   const auto expect = [&tokens](const char* word) {
-    if (internal::LowerCase(tokens.NextWord()) != word) tokens.Fail("not the '" + std::string(word) + "' of an STL file");
+    if (internal::LowerCase(tokens.NextWord()) != word)
+      tokens.Fail("not the '" + std::string(word) + "' of an STL file");
   };
   expect("solid");
   tokens.SkipLine();

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "octupole/field/alignment.h"
+#include "octupole/alignment/alignment.h"
 #include "octupole/mesh/tet_mesh.h"
 #include "octupole/mesh/triangle_mesh.h"
 

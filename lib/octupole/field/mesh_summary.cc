@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "octupole/field/boundary_alignment.h"
+#include "octupole/alignment/boundary_alignment.h"
 #include "octupole/mesh/mesh_topology.h"
 #include "octupole/mesh/seams.h"
 

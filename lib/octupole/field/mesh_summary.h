@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "octupole/field/interfaces.h"
+#include "octupole/alignment/interfaces.h"
 #include "octupole/mesh/mesh_inspection.h"
 #include "octupole/mesh/tet_mesh.h"
 #include "octupole/singularities/surface_singularities.h"

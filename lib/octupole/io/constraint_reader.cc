@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "octupole/io/internal/number_rows.h"
-#include "octupole/io/internal/vtk_cells.h"
+#include "octupole/readers/internal/number_rows.h"
+#include "octupole/readers/internal/vtk_cells.h"
 
 namespace octupole {
 namespace {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "octupole/field/constraints.h"
+#include "octupole/alignment/constraints.h"
 
 namespace octupole {
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <utility>
 
-#include "octupole/io/internal/mesh_readers.h"
-#include "octupole/io/internal/vtk_cells.h"
 #include "octupole/io/vtu_writer.h"
+#include "octupole/readers/internal/mesh_readers.h"
+#include "octupole/readers/internal/vtk_cells.h"
 
 namespace octupole {
 namespace {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "octupole/field/alignment.h"
+#include "octupole/alignment/alignment.h"
 #include "octupole/harmonics/harmonics.h"
 #include "octupole/io/vtu_writer.h"
 #include "octupole/mesh/tet_mesh.h"

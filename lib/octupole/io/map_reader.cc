@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "octupole/io/internal/mesh_readers.h"
+#include "octupole/readers/internal/mesh_readers.h"
 
 namespace octupole {
 

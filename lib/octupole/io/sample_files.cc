@@ -9,9 +9,9 @@
 #include <string>
 
 #include "octupole/io/atomic_file.h"
-#include "octupole/io/internal/mesh_readers.h"
-#include "octupole/io/internal/number_rows.h"
 #include "octupole/io/vtu_writer.h"
+#include "octupole/readers/internal/mesh_readers.h"
+#include "octupole/readers/internal/number_rows.h"
 
 namespace octupole {
 namespace {

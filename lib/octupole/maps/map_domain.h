@@ -4,7 +4,7 @@
 #include <set>
 #include <vector>
 
-#include "octupole/field/boundary_alignment.h"
+#include "octupole/alignment/boundary_alignment.h"
 #include "octupole/maps/boundary_sheets.h"
 #include "octupole/maps/combed_frames.h"
 #include "octupole/maps/edge_turns.h"

@@ -19,8 +19,8 @@ struct TetMesh {
   std::vector<std::array<int, 2>> feature_edges = {};
   std::vector<int> feature_points = {};
   /// Triangles that the file or the caller tags as parts of surfaces, and the tag of each. Inside the mesh they are
-  /// interfaces, and a feature edge between two of one tag may be a seam (field/interfaces.h, mesh/seams.h). Those that
-  /// are no faces of tetrahedra mean nothing.
+  /// interfaces, and a feature edge between two of one tag may be a seam (alignment/interfaces.h, mesh/seams.h). Those
+  /// that are no faces of tetrahedra mean nothing.
   std::vector<std::array<int, 3>> surface_triangles = {};
   std::vector<int> surface_tags = {};
   /// The nodes {v, a, b} on the edges of second-order tetrahedra: v, a vertex of no tetrahedron, lies between a and b.

@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "octupole/alignment/aligned_frame.h"
 #include "octupole/cost_functions/cost_weight.h"
-#include "octupole/field/aligned_frame.h"
 #include "octupole/field/coarse_graph.h"
 #include "octupole/frames/frame.h"
 #include "octupole/harmonics/rotation.h"

@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "octupole/alignment/aligned_frame.h"
 #include "octupole/cost_functions/alignment_cost.h"
-#include "octupole/field/aligned_frame.h"
 #include "octupole/field/mid_edge_frames.h"
 #include "octupole/frames/frame.h"
 #include "octupole/solvers/fast_solver.h"

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "octupole/field/boundary_alignment.h"
-#include "octupole/field/constraints.h"
+#include "octupole/alignment/boundary_alignment.h"
+#include "octupole/alignment/constraints.h"
 #include "octupole/field/field_graph.h"
 #include "octupole/harmonics/harmonics.h"
 #include "octupole/mesh/tet_mesh.h"

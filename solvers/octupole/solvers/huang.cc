@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "octupole/field/aligned_frame.h"
+#include "octupole/alignment/aligned_frame.h"
 #include "octupole/field/coarse_graph.h"
 #include "octupole/frames/frame.h"
 #include "octupole/frames/random_rotation.h"

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "octupole/field/boundary_alignment.h"
+#include "octupole/alignment/boundary_alignment.h"
 #include "octupole/field/field_graph.h"
 #include "octupole/solvers/field_solver.h"
 #include "octupole/solvers/solver_presets.h"

@@ -1,7 +1,7 @@
-#include <octupole/field/boundary_alignment.h>
+#include <octupole/alignment/boundary_alignment.h>
 #include <octupole/harmonics/harmonics.h>
 #include <octupole/io/field_writer.h>
-#include <octupole/io/mesh_io.h>
+#include <octupole/readers/tet_mesh_reader.h>
 
 #include <Eigen/Core>
 #include <cmath>

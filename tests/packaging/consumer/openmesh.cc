@@ -1,5 +1,5 @@
 #include <octupole/adaptors/openmesh_surface.h>
-#include <octupole/field/boundary_alignment.h>
+#include <octupole/alignment/boundary_alignment.h>
 #include <octupole/mesh/box_mesh.h>
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>

@@ -4,9 +4,9 @@
 
 #include <vector>
 
+#include "octupole/alignment/alignment.h"
+#include "octupole/alignment/boundary_alignment.h"
 #include "octupole/distributed/mesh_part.h"
-#include "octupole/field/alignment.h"
-#include "octupole/field/boundary_alignment.h"
 
 namespace octupole::internal {
 

@@ -9,8 +9,8 @@
 #include <unordered_map>
 #include <utility>
 
-#include "octupole/field/internal/spectral_rule.h"
-#include "octupole/field/sharp_edges.h"
+#include "octupole/alignment/internal/spectral_rule.h"
+#include "octupole/alignment/sharp_edges.h"
 #include "octupole/mesh/surface_corners.h"
 
 namespace octupole::internal {

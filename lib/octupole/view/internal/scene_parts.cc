@@ -4,7 +4,7 @@
 #include <sstream>
 #include <utility>
 
-#include "octupole/field/sharp_edges.h"
+#include "octupole/alignment/sharp_edges.h"
 
 namespace octupole::internal {
 namespace {

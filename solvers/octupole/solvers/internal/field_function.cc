@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "octupole/field/alignment.h"
+#include "octupole/alignment/alignment.h"
 #include "octupole/solvers/internal/edge_sweep.h"
 #include "octupole/solvers/internal/simd.h"
 

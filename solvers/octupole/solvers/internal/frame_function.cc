@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "octupole/field/alignment.h"
+#include "octupole/alignment/alignment.h"
 #include "octupole/solvers/internal/edge_sweep.h"
 #include "octupole/solvers/internal/simd.h"
 

@@ -2,7 +2,7 @@
 
 #include <type_traits>
 
-#include "octupole/field/aligned_frame.h"
+#include "octupole/alignment/aligned_frame.h"
 #include "octupole/frames/frame.h"
 #include "octupole/solvers/internal/field_function.h"
 #include "octupole/solvers/internal/frame_function.h"

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "octupole/field/alignment.h"
+#include "octupole/alignment/alignment.h"
 #include "octupole/field/field_graph.h"
 
 namespace octupole::internal {
