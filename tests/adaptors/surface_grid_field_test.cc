@@ -51,7 +51,9 @@ TEST(SolveOnGrids, GoesFromCoarseToFine) {
       EXPECT_EQ(curve.valence, 3);
       EXPECT_NEAR(curve.length, 2.05, 0.1);
     }
-    if (levels > 1) EXPECT_NEAR(EnergyOf(grid, frames) / first_energy, 1, 0.03);
+    if (levels > 1) {
+      EXPECT_NEAR(EnergyOf(grid, frames) / first_energy, 1, 0.03);
+    }
   }
 }
 
