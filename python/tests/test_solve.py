@@ -196,7 +196,7 @@ points = mesh.points + 0.3 * __import__("numpy").sin(9 * mesh.points[:, ::-1])
 def interrupt():
     os.kill(os.getpid(), signal.SIGINT)
 try:
-    threading.Timer(0.5, interrupt).start()
+    threading.Timer(0.1, interrupt).start()
     octupole.solve(points, mesh.tets, callback={callback})
 except KeyboardInterrupt:
     print("interrupted")
