@@ -93,7 +93,7 @@ constexpr Figure kFigures[] = {
 constexpr const char* kRatios[] = {"unknowns",      "nonzeros",    "iterations",     "setup_seconds",
                                    "solve_seconds", "cpu_seconds", "peak_memory_mb", "energy4"};
 
-struct Arguments {
+struct CompareArguments {
   std::vector<path> meshes;
   std::vector<std::string> methods;
   int repeat = 1;
@@ -129,7 +129,7 @@ class ScratchFolder {
 // One run of `octupole field`: its report with what the process took in "process", or only an "error".
 class Runner {
  public:
-  explicit Runner(const Arguments& arguments) : arguments_(arguments) {}
+  explicit Runner(const CompareArguments& arguments) : arguments_(arguments) {}
 
   Json Run(const path& mesh, const Configuration& configuration, std::optional<int> max_iterations) const {
     const path report_file = scratch_ / "report.json", error_file = scratch_ / "errors";
@@ -165,7 +165,7 @@ class Runner {
     return line.empty() ? "exit code " + std::to_string(exit_code) : line;
   }
 
-  const Arguments& arguments_;
+  const CompareArguments& arguments_;
   ScratchFolder scratch_;
 };
 
@@ -310,7 +310,7 @@ void ShowProgress(const std::string& text) {
 
 // All methods on one mesh, in turn, as often as asked. Nothing when interrupted.
 std::optional<Json> CompareOn(const path& mesh, const std::vector<Configuration>& configurations,
-                              const Arguments& arguments, const Runner& runner, const InterruptionGuard& guard) {
+                              const CompareArguments& arguments, const Runner& runner, const InterruptionGuard& guard) {
   std::map<std::string, std::vector<Json>> runs;
   for (int i = 0; i < arguments.repeat; ++i) {
     for (const Configuration& configuration : configurations) {
@@ -362,7 +362,7 @@ std::optional<std::string> CommonError(const Json& rows) {
   return rows[0]["error"].get<std::string>();
 }
 
-void RunCompare(const Arguments& arguments) {
+void RunCompare(const CompareArguments& arguments) {
   std::vector<path> inputs;
   for (const path& mesh : arguments.meshes) {
     for (path& file : TetMeshFiles(mesh)) inputs.push_back(std::move(file));
@@ -419,7 +419,7 @@ void RunCompare(const Arguments& arguments) {
 }  // namespace
 
 void AddCompareCommand(CLI::App* app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<CompareArguments>();
   std::string names, on_request;
   std::vector<std::string> all;
   for (const Configuration& configuration : AllConfigurations()) {

@@ -38,7 +38,7 @@
 namespace octupole {
 namespace {
 
-struct Arguments {
+struct FieldArguments {
   std::filesystem::path mesh;
   /// Of the tets, where the mesh is a CAD model.
   std::optional<double> size;
@@ -59,7 +59,7 @@ struct Arguments {
   std::filesystem::path start;
 };
 
-TetMesh LoadMesh(const Arguments& arguments, std::vector<std::string>* warnings) {
+TetMesh LoadMesh(const FieldArguments& arguments, std::vector<std::string>* warnings) {
 #ifdef OCTUPOLE_WITH_GMSH
   if (arguments.size) return MeshCadModel(arguments.mesh, *arguments.size);
   if (IsCadModel(arguments.mesh)) {
@@ -75,7 +75,7 @@ TetMesh LoadMesh(const Arguments& arguments, std::vector<std::string>* warnings)
   return ReadTetMesh(arguments.mesh, warnings);
 }
 
-void PrintSummary(const Arguments& arguments, const nlohmann::ordered_json& report) {
+void PrintSummary(const FieldArguments& arguments, const nlohmann::ordered_json& report) {
   const auto number = [&](const char* key) { return report[key].get<double>(); };
   const auto& alignment = report["alignment"];
   std::printf("%s: %d vertices, %d tets, %d edges\n", arguments.mesh.string().c_str(), report["vertices"].get<int>(),
@@ -120,7 +120,7 @@ void PrintSummary(const Arguments& arguments, const nlohmann::ordered_json& repo
 }
 
 template <int kDegree>
-void RunField(const Arguments& arguments) {
+void RunField(const FieldArguments& arguments) {
   std::vector<std::filesystem::path> inputs = TetMeshFiles(arguments.mesh);
   for (const auto* file : {&arguments.constraints, &arguments.start}) {
     if (!file->empty()) inputs.push_back(*file);
@@ -261,7 +261,7 @@ void RunField(const Arguments& arguments) {
 }  // namespace
 
 void AddFieldCommand(CLI::App* app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<FieldArguments>();
   CLI::App* command = app->add_subcommand("field", "Compute a frame field on a tet mesh");
   command
       ->add_option("mesh", arguments->mesh,

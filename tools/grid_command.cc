@@ -38,7 +38,7 @@
 namespace octupole {
 namespace {
 
-struct Arguments {
+struct GridArguments {
   std::filesystem::path surface;
   std::filesystem::path output;
   std::filesystem::path report;
@@ -63,7 +63,7 @@ TriangleMesh LoadSurface(const std::filesystem::path& path, std::vector<std::str
   return kSurfaces.count(ending) > 0 ? ReadTriangleMesh(path, warnings) : BoundarySurface(ReadTetMesh(path, warnings));
 }
 
-void PrintSummary(const Arguments& arguments, const nlohmann::ordered_json& report) {
+void PrintSummary(const GridArguments& arguments, const nlohmann::ordered_json& report) {
   const auto count = [](const nlohmann::ordered_json& value) { return value.get<long long>(); };
   const auto number = [](const nlohmann::ordered_json& value) { return value.get<double>(); };
   std::printf("%s: %lld triangles\n", arguments.surface.string().c_str(), count(report["triangles"]));
@@ -122,7 +122,7 @@ void WriteGrid(const std::filesystem::path& path, const SurfaceGrid& grid, const
 
 // A page of the field at the nodes inside the solid; those outside are there for the surface's sake.
 template <int kDegree>
-void WritePage(const Arguments& arguments, const TriangleMesh& surface, const SurfaceGrid& grid,
+void WritePage(const GridArguments& arguments, const TriangleMesh& surface, const SurfaceGrid& grid,
                const FieldSolution<kDegree>& field, const SingularCurves& curves, const GridQuality& quality) {
   std::vector<std::array<int, 2>> edges;
   for (const WeightedEdge& edge : grid.graph.edges) {
@@ -141,7 +141,7 @@ void WritePage(const Arguments& arguments, const TriangleMesh& surface, const Su
 }
 
 template <int kDegree>
-void RunGrid(const Arguments& arguments) {
+void RunGrid(const GridArguments& arguments) {
   std::vector<std::filesystem::path> inputs = {arguments.surface};
   if (!arguments.points.empty()) inputs.push_back(arguments.points);
   CheckOutputs(inputs, {{"--output", arguments.output, {".vtu"}},
@@ -263,7 +263,7 @@ void RunGrid(const Arguments& arguments) {
 }  // namespace
 
 void AddGridCommand(CLI::App* app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<GridArguments>();
   CLI::App* command = app->add_subcommand("grid", "Compute a frame field inside a closed surface, on a grid");
   command
       ->add_option("surface", arguments->surface,

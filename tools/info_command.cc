@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-struct Arguments {
+struct InfoArguments {
   std::filesystem::path mesh;
   std::filesystem::path report;
   bool quiet = false;
@@ -132,7 +132,7 @@ void Print(const ordered_json& info) {
 }  // namespace
 
 void AddInfoCommand(CLI::App* app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<InfoArguments>();
   CLI::App* command = app->add_subcommand("info", "Say what a tet mesh holds and what is odd about it");
   command->add_option("mesh", arguments->mesh, "As for field")->required()->option_text("MESH");
   command->add_option("--report", arguments->report, "The same as JSON")->option_text("F.json");

@@ -30,7 +30,7 @@
 namespace octupole {
 namespace {
 
-struct Arguments {
+struct MapArguments {
   std::filesystem::path mesh;
   std::filesystem::path field;
   std::filesystem::path output;
@@ -76,7 +76,7 @@ void PrintObstacles(const std::vector<MapObstacle>& obstacles) {
   }
 }
 
-std::vector<Eigen::Matrix3d> LoadFrames(const Arguments& arguments, const TetMesh& mesh, Progress* progress) {
+std::vector<Eigen::Matrix3d> LoadFrames(const MapArguments& arguments, const TetMesh& mesh, Progress* progress) {
   if (!arguments.field.empty()) {
     std::vector<Eigen::Matrix3d> frames = ReadField(arguments.field).frames;
     if (frames.size() == mesh.points.size()) return frames;
@@ -92,7 +92,7 @@ std::vector<Eigen::Matrix3d> LoadFrames(const Arguments& arguments, const TetMes
   return field.frames;
 }
 
-void RunMap(const Arguments& arguments) {
+void RunMap(const MapArguments& arguments) {
   std::vector<std::filesystem::path> inputs = TetMeshFiles(arguments.mesh);
   for (const auto* file : {&arguments.field, &arguments.start}) {
     if (!file->empty()) inputs.push_back(*file);
@@ -206,7 +206,7 @@ void RunMap(const Arguments& arguments) {
 }  // namespace
 
 void AddMapCommand(CLI::App* app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<MapArguments>();
   CLI::App* command = app->add_subcommand("map", "Compute a seamless map of a tet mesh, for hexahedral meshers");
   command->add_option("mesh", arguments->mesh, "As for field")->required()->option_text("MESH");
   command

@@ -14,7 +14,7 @@
 namespace octupole {
 namespace {
 
-struct Arguments {
+struct SampleArguments {
   std::filesystem::path field;
   std::filesystem::path points;
   std::filesystem::path output;
@@ -22,7 +22,7 @@ struct Arguments {
   bool quiet = false;
 };
 
-void RunSample(const Arguments& arguments) {
+void RunSample(const SampleArguments& arguments) {
   CheckOutputs({arguments.field, arguments.points}, {{"--output", arguments.output, {".vtu", ".csv"}}});
   Stopwatch stopwatch;
   const FieldFile field = ReadField(arguments.field);
@@ -47,7 +47,7 @@ void RunSample(const Arguments& arguments) {
 }  // namespace
 
 void AddSampleCommand(CLI::App* app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<SampleArguments>();
   CLI::App* command = app->add_subcommand("sample", "Give the frames of a field at any points");
   command->add_option("field", arguments->field, "As octupole field writes it")->required()->option_text("FIELD.vtu");
   command

@@ -27,7 +27,7 @@
 namespace octupole {
 namespace {
 
-struct Arguments {
+struct SurfaceArguments {
   std::filesystem::path mesh;
   std::filesystem::path output;
   std::filesystem::path report;
@@ -37,7 +37,7 @@ struct Arguments {
   SolverArguments solver;
 };
 
-void PrintSummary(const Arguments& arguments, const nlohmann::ordered_json& report) {
+void PrintSummary(const SurfaceArguments& arguments, const nlohmann::ordered_json& report) {
   const auto integer = [](const nlohmann::ordered_json& value) { return value.get<int>(); };
   const auto& alignment = report["alignment"];
   std::printf("%s: %d vertices, %d faces, %d edges, Euler characteristic %d, %s\n", arguments.mesh.string().c_str(),
@@ -68,7 +68,7 @@ void PrintSummary(const Arguments& arguments, const nlohmann::ordered_json& repo
 }
 
 template <int kDegree>
-void RunSurface(const Arguments& arguments) {
+void RunSurface(const SurfaceArguments& arguments) {
   CheckOutputs({arguments.mesh}, {{"--output", arguments.output, {".vtu"}},
                                   {"--report", arguments.report},
                                   {"--html", arguments.html, {".html", ".htm"}}});
@@ -188,7 +188,7 @@ void RunSurface(const Arguments& arguments) {
 }  // namespace
 
 void AddSurfaceCommand(CLI::App* app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<SurfaceArguments>();
   CLI::App* command = app->add_subcommand("surface", "Compute a cross field on a surface mesh");
   command->add_option("mesh", arguments->mesh, ".obj, .off, .stl or .ply; triangles or polygons")
       ->required()

@@ -18,7 +18,7 @@
 namespace octupole {
 namespace {
 
-struct Arguments {
+struct ViewArguments {
   std::filesystem::path field;
   std::filesystem::path singularities;
   std::filesystem::path with;
@@ -58,7 +58,7 @@ Scene LoadScene(const std::filesystem::path& path, const std::filesystem::path& 
   return scene;
 }
 
-void RunView(const Arguments& arguments) {
+void RunView(const ViewArguments& arguments) {
   std::vector<std::filesystem::path> inputs = {arguments.field};
   for (const auto* file : {&arguments.singularities, &arguments.with}) {
     if (!file->empty()) inputs.push_back(*file);
@@ -74,7 +74,7 @@ void RunView(const Arguments& arguments) {
 }  // namespace
 
 void AddViewCommand(CLI::App* app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ViewArguments>();
   CLI::App* command = app->add_subcommand("view", "Write a field as a page for the browser");
   command->add_option("field", arguments->field, "The field, as 'octupole field' or 'octupole surface' wrote it")
       ->required()

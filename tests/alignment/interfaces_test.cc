@@ -34,10 +34,8 @@ Interfaces Find(const TetMesh& mesh, RegionUse use = RegionUse::kAutomatic) {
   return FindInterfaces(mesh, BoundaryTriangles(mesh), use);
 }
 
-double Degrees(double radians) { return radians * 180 / EIGEN_PI; }
-
 double AngleBetweenLines(const Vector3d& a, const Vector3d& b) {
-  return Degrees(std::atan2(a.cross(b).norm(), std::abs(a.dot(b))));
+  return std::atan2(a.cross(b).norm(), std::abs(a.dot(b))) * 180 / EIGEN_PI;
 }
 
 // The parts of a partition: tets belong to the nearest of some seeds, steps being counted from face to face.

@@ -12,8 +12,6 @@
 namespace octupole {
 namespace {
 
-constexpr double kWeight = 2.5;
-
 template <typename Degree>
 class AlignmentCostTest : public testing::Test {};
 using Degrees = testing::Types<std::integral_constant<int, 3>, std::integral_constant<int, 4>>;

@@ -9,6 +9,9 @@ namespace octupole {
 
 // The residuals and Jacobians of a cost function at a point, and what every residual block has to satisfy there.
 
+/// The weight of the costs on trial.
+constexpr double kWeight = 2.5;
+
 struct Evaluation {
   Eigen::VectorXd residuals;
   /// One per parameter block.

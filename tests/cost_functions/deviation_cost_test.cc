@@ -14,8 +14,6 @@
 namespace octupole {
 namespace {
 
-constexpr double kWeight = 2.5;
-
 template <typename Degree>
 class DeviationCostTest : public testing::Test {};
 using Degrees = testing::Types<std::integral_constant<int, 3>, std::integral_constant<int, 4>>;

@@ -22,7 +22,6 @@
 namespace octupole {
 namespace {
 
-constexpr double kWeight = 2.5;
 constexpr double kSize = 0.7;
 
 using Corners = std::array<Eigen::Vector3d, 4>;

@@ -10,9 +10,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "any_graph.h"
 #include "gradient_check.h"
-#include "octupole/mesh/box_mesh.h"
-#include "random_inputs.h"
 
 namespace octupole {
 namespace {
@@ -22,35 +21,10 @@ class FieldEnergyTest : public testing::Test {};
 using Degrees = testing::Types<std::integral_constant<int, 3>, std::integral_constant<int, 4>>;
 TYPED_TEST_SUITE(FieldEnergyTest, Degrees);
 
-// A box whose vertices are free, have an axis or a frame, one of them isolated.
-FieldGraph AnyGraph(bool is_weighted) {
-  const TetMesh mesh = MakeBoxMesh({4, 3, 2}, {4, 3, 2});
-  std::mt19937 generator(1);
-  std::vector<Alignment> alignments;
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    alignments.push_back(v % 3 == 1   ? Alignment::Axis(RandomDirection(&generator))
-                         : v % 5 == 4 ? Alignment::Frame(RandomFrame(&generator))
-                                      : Alignment());
-  }
-  FieldGraph graph = MakeFieldGraph(mesh, alignments);
-  graph.alignments.emplace_back();
-  if (!is_weighted) return graph;
-  for (std::size_t e = 0; e < graph.edges.size(); ++e) graph.edges[e].weight = 0.3 * static_cast<double>(e % 7);
-  return graph;
-}
-
-std::vector<double> AnyParameters(int size) {
-  std::mt19937 generator(2);
-  std::normal_distribution<double> normal;
-  std::vector<double> x(size);
-  for (double& value : x) value = normal(generator);
-  return x;
-}
-
 TYPED_TEST(FieldEnergyTest, IsTheCostOfTheCeresProblemWithItsGradient) {
   constexpr int l = TypeParam::value;
   for (const bool is_weighted : {false, true}) {
-    const FieldGraph graph = AnyGraph(is_weighted);
+    const FieldGraph graph = AnyGraph({4, 3, 2}, /*num_isolated=*/1, is_weighted);
     const EnergyWeights weights = {3, 0.7};
     Workers workers(1);
     const FieldEnergy<l> energy(graph, weights, &workers);
@@ -82,13 +56,13 @@ TYPED_TEST(FieldEnergyTest, IsTheCostOfTheCeresProblemWithItsGradient) {
 TYPED_TEST(FieldEnergyTest, HasTheNumericGradient) {
   constexpr int l = TypeParam::value;
   Workers workers(1);
-  const FieldEnergy<l> energy(AnyGraph(true), {}, &workers);
+  const FieldEnergy<l> energy(AnyGraph({4, 3, 2}, /*num_isolated=*/1, true), {}, &workers);
   ExpectNumericGradient(energy, AnyParameters(energy.NumParameters()), 1e-5, 1e-5);
 }
 
 TYPED_TEST(FieldEnergyTest, IsFiniteAtZero) {
   constexpr int l = TypeParam::value;
-  const FieldGraph graph = AnyGraph(false);
+  const FieldGraph graph = AnyGraph({4, 3, 2}, /*num_isolated=*/1, false);
   Workers workers(1);
   const FieldEnergy<l> energy(graph, {}, &workers);
   const std::vector<double> x(energy.NumParameters(), 0);
@@ -101,7 +75,7 @@ TYPED_TEST(FieldEnergyTest, IsFiniteAtZero) {
 
 TYPED_TEST(FieldEnergyTest, TakesAFieldApartAndPutsItTogether) {
   constexpr int l = TypeParam::value;
-  const FieldGraph graph = AnyGraph(false);
+  const FieldGraph graph = AnyGraph({4, 3, 2}, /*num_isolated=*/1, false);
   Workers workers(1);
   const FieldEnergy<l> energy(graph, {}, &workers);
   const std::vector<Harmonic<l>> field = RandomField<l>(graph, 1);
@@ -129,7 +103,7 @@ TYPED_TEST(FieldEnergyTest, DoesNotDependOnTheNumberOfThreads) {
 
 TYPED_TEST(FieldEnergyTest, SuitsCeresGradientProblem) {
   constexpr int l = TypeParam::value;
-  const FieldGraph graph = AnyGraph(false);
+  const FieldGraph graph = AnyGraph({4, 3, 2}, /*num_isolated=*/1, false);
   Workers workers(1);
   auto* energy = new FieldEnergy<l>(graph, {}, &workers);
   std::vector<double> x = energy->ParametersOf(RandomField<l>(graph, 1));
@@ -146,10 +120,12 @@ TYPED_TEST(FieldEnergyTest, SuitsCeresGradientProblem) {
 TEST(FieldEnergy, RefusesBadInput) {
   Workers workers(1);
   EXPECT_THROW(FieldEnergy<3>({{{0, 2, 1}}, std::vector<Alignment>(2)}, {}, &workers), std::invalid_argument);
-  EXPECT_THROW(FieldEnergy<3>(AnyGraph(false), {-1, 0}, &workers), std::invalid_argument);
-  EXPECT_THROW(FieldEnergy<3>(AnyGraph(false), {1, std::numeric_limits<double>::quiet_NaN()}, &workers),
+  EXPECT_THROW(FieldEnergy<3>(AnyGraph({4, 3, 2}, /*num_isolated=*/1, false), {-1, 0}, &workers),
                std::invalid_argument);
-  const FieldEnergy<3> energy(AnyGraph(false), {}, &workers);
+  EXPECT_THROW(FieldEnergy<3>(AnyGraph({4, 3, 2}, /*num_isolated=*/1, false),
+                              {1, std::numeric_limits<double>::quiet_NaN()}, &workers),
+               std::invalid_argument);
+  const FieldEnergy<3> energy(AnyGraph({4, 3, 2}, /*num_isolated=*/1, false), {}, &workers);
   EXPECT_THROW(energy.ParametersOf({}), std::invalid_argument);
   EXPECT_THROW(energy.FieldOf({}), std::invalid_argument);
 }

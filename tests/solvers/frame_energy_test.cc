@@ -6,52 +6,19 @@
 #include <optional>
 #include <stdexcept>
 
+#include "any_graph.h"
 #include "gradient_check.h"
-#include "octupole/alignment/aligned_frame.h"
 #include "octupole/alignment/alignment.h"
 #include "octupole/frames/frame.h"
 #include "octupole/harmonics/rotation.h"
-#include "octupole/mesh/box_mesh.h"
-#include "octupole/solvers/field_problem.h"
 #include "random_inputs.h"
 
 namespace octupole {
 namespace {
 
-FieldGraph AnyGraph(bool is_weighted) {
-  const TetMesh mesh = MakeBoxMesh({3, 3, 2}, {3, 3, 2});
-  std::mt19937 generator(1);
-  std::vector<Alignment> alignments;
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    alignments.push_back(v % 3 == 1   ? Alignment::Axis(RandomDirection(&generator))
-                         : v % 5 == 4 ? Alignment::Frame(RandomFrame(&generator))
-                                      : Alignment());
-  }
-  FieldGraph graph = MakeFieldGraph(mesh, alignments);
-  if (!is_weighted) return graph;
-  for (std::size_t e = 0; e < graph.edges.size(); ++e) graph.edges[e].weight = 0.3 * static_cast<double>(e % 7);
-  return graph;
-}
-
-std::vector<Eigen::Matrix3d> AnyFrames(const FieldGraph& graph) {
-  std::vector<Eigen::Matrix3d> frames;
-  const std::vector<Octupole> field = RandomField<3>(graph, 1);
-  for (std::size_t v = 0; v < field.size(); ++v)
-    frames.push_back(NearestAlignedFrame<3>(graph.alignments[v], field[v]));
-  return frames;
-}
-
-std::vector<double> AnyParameters(int size) {
-  std::mt19937 generator(2);
-  std::normal_distribution<double> normal;
-  std::vector<double> x(size);
-  for (double& value : x) value = normal(generator);
-  return x;
-}
-
 TEST(FrameEnergy, IsHalfTheSumOfFrameDifferences) {
   for (const bool is_weighted : {false, true}) {
-    const FieldGraph graph = AnyGraph(is_weighted);
+    const FieldGraph graph = AnyGraph({3, 3, 2}, /*num_isolated=*/0, is_weighted);
     Workers workers(2);
     const FrameEnergy energy(graph, AnyFrames(graph), &workers);
     const std::vector<double> x = AnyParameters(energy.NumParameters());
@@ -67,7 +34,7 @@ TEST(FrameEnergy, IsHalfTheSumOfFrameDifferences) {
 
 // Soft alignment, written out: three parameters everywhere, and the squared distances from what is allowed.
 TEST(FrameEnergy, AddsTheDistancesOfSoftAlignments) {
-  const FieldGraph graph = AnyGraph(true);
+  const FieldGraph graph = AnyGraph({3, 3, 2}, /*num_isolated=*/0, true);
   Workers workers(2);
   const FrameEnergy energy(graph, AnyFrames(graph), &workers, /*soft_weight=*/7.);
   ASSERT_EQ(energy.NumParameters(), 3 * static_cast<int>(graph.num_vertices()));
@@ -93,14 +60,14 @@ class FrameEnergyGradient : public testing::TestWithParam<std::optional<double>>
 INSTANTIATE_TEST_SUITE_P(HardAndSoft, FrameEnergyGradient, testing::Values(std::nullopt, 7.));
 
 TEST_P(FrameEnergyGradient, IsTheNumericOne) {
-  const FieldGraph graph = AnyGraph(true);
+  const FieldGraph graph = AnyGraph({3, 3, 2}, /*num_isolated=*/0, true);
   Workers workers(1);
   const FrameEnergy energy(graph, AnyFrames(graph), &workers, GetParam());
   ExpectNumericGradient(energy, AnyParameters(energy.NumParameters()), 1e-6, 1e-7);
 }
 
 TEST(FrameEnergy, KeepsAlignmentsAndStartsFromTheGivenFrames) {
-  const FieldGraph graph = AnyGraph(false);
+  const FieldGraph graph = AnyGraph({3, 3, 2}, /*num_isolated=*/0, false);
   const std::vector<Eigen::Matrix3d> start = AnyFrames(graph);
   Workers workers(1);
   const FrameEnergy energy(graph, start, &workers);
@@ -122,7 +89,7 @@ TEST(FrameEnergy, KeepsAlignmentsAndStartsFromTheGivenFrames) {
 TEST(FrameEnergy, RefusesBadInput) {
   Workers workers(1);
   EXPECT_THROW(FrameEnergy({{{0, 2, 1}}, std::vector<Alignment>(2)}, {}, &workers), std::invalid_argument);
-  const FieldGraph graph = AnyGraph(false);
+  const FieldGraph graph = AnyGraph({3, 3, 2}, /*num_isolated=*/0, false);
   EXPECT_THROW(FrameEnergy(graph, {}, &workers), std::invalid_argument);
   EXPECT_THROW(FrameEnergy(graph, AnyFrames(graph), &workers, -1), std::invalid_argument);
   EXPECT_THROW(FrameEnergy(graph, AnyFrames(graph), &workers).FramesOf({}), std::invalid_argument);

@@ -3,37 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <random>
 #include <stdexcept>
 #include <vector>
 
-#include "octupole/alignment/aligned_frame.h"
-#include "octupole/alignment/alignment.h"
+#include "any_graph.h"
 #include "octupole/field/field_graph.h"
-#include "octupole/mesh/box_mesh.h"
 #include "octupole/solvers/field_energy.h"
-#include "octupole/solvers/field_problem.h"
 #include "octupole/solvers/frame_energy.h"
-#include "random_inputs.h"
 
 // The energies of parts of a graph with ghosts, against that of the whole graph.
 
 namespace octupole {
 namespace {
-
-FieldGraph AnyGraph() {
-  const TetMesh mesh = MakeBoxMesh({5, 3, 2}, {5, 3, 2});
-  std::mt19937 generator(1);
-  std::vector<Alignment> alignments;
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    alignments.push_back(v % 3 == 1   ? Alignment::Axis(RandomDirection(&generator))
-                         : v % 5 == 4 ? Alignment::Frame(RandomFrame(&generator))
-                                      : Alignment());
-  }
-  FieldGraph graph = MakeFieldGraph(mesh, alignments);
-  for (std::size_t e = 0; e < graph.edges.size(); ++e) graph.edges[e].weight = 0.3 * static_cast<double>(e % 7);
-  return graph;
-}
 
 struct Part {
   FieldGraph graph;
@@ -60,26 +41,10 @@ Part PartOf(const FieldGraph& whole, int begin, int end) {
   return part;
 }
 
-std::vector<double> AnyParameters(std::size_t size) {
-  std::mt19937 generator(2);
-  std::normal_distribution<double> normal;
-  std::vector<double> x(size);
-  for (double& value : x) value = normal(generator);
-  return x;
-}
-
-std::vector<Eigen::Matrix3d> AnyFrames(const FieldGraph& graph) {
-  std::vector<Eigen::Matrix3d> frames;
-  for (const Octupole& octupole : RandomField<3>(graph, 1)) {
-    frames.push_back(NearestAlignedFrame<3>(graph.alignments[frames.size()], octupole));
-  }
-  return frames;
-}
-
 // `make(graph, vertices, num_owned)` makes the energy of a graph that has these vertices of the whole one.
 template <typename MakeEnergy>
 void ExpectPartsToAddUp(const MakeEnergy& make) {
-  const FieldGraph graph = AnyGraph();
+  const FieldGraph graph = AnyGraph({5, 3, 2}, /*num_isolated=*/0, /*is_weighted=*/true);
   const auto num_vertices = static_cast<int>(graph.num_vertices());
   std::vector<int> all(num_vertices);
   for (int v = 0; v < num_vertices; ++v) all[v] = v;
@@ -125,7 +90,8 @@ TEST(GraphPart, FieldEnergiesAddUp) {
 
 TEST(GraphPart, FrameEnergiesAddUp) {
   Workers workers(2);
-  const std::vector<Eigen::Matrix3d> all_frames = AnyFrames(AnyGraph());
+  const std::vector<Eigen::Matrix3d> all_frames =
+      AnyFrames(AnyGraph({5, 3, 2}, /*num_isolated=*/0, /*is_weighted=*/true));
   ExpectPartsToAddUp([&](const FieldGraph& graph, const std::vector<int>& vertices, std::size_t num_owned) {
     std::vector<Eigen::Matrix3d> frames;
     for (const int v : vertices) frames.push_back(all_frames[v]);
@@ -134,7 +100,7 @@ TEST(GraphPart, FrameEnergiesAddUp) {
 }
 
 TEST(GraphPart, OwnsNoMoreThanThereIs) {
-  const FieldGraph graph = AnyGraph();
+  const FieldGraph graph = AnyGraph({5, 3, 2}, /*num_isolated=*/0, /*is_weighted=*/true);
   Workers workers(1);
   EXPECT_THROW(FieldEnergy<3>(graph, {}, &workers, graph.num_vertices() + 1), std::invalid_argument);
   EXPECT_THROW(

@@ -29,6 +29,16 @@ inline Outcome Shell(const std::string& command) {
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, ReadText(folder / "out"), ReadText(folder / "err")};
 }
 
+/// To write before a command: sends it SIGINT or SIGTERM half a second after it has begun to catch them, however long
+/// it takes to start on a busy machine. Ends as the command ends.
+inline std::string Interrupting(const std::string& signal) {
+  return "sh -c '\"$@\" & command=$!; "
+         // The signals that a process catches, as bits: 2 is SIGINT.
+         "while kill -0 $command && ! grep -q \"^SigCgt:.*[2367abef]$\" /proc/$command/status; do sleep 0.05; done; "
+         "sleep 0.5; kill -s " +
+         signal + " $command; wait $command' interrupting";
+}
+
 /// The mesh of the demo, ready for the shell.
 inline std::string Bracket() { return Quoted(OCTUPOLE_SOURCE_DIR "/examples/data/bracket.mesh"); }
 

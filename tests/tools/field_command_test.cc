@@ -284,8 +284,8 @@ TEST(FieldCommand, WritesTheFieldReachedWhenInterrupted) {
   const TemporaryFolder folder;
   // Sparse Cholesky takes minutes on this mesh; an iteration takes seconds.
   const Outcome outcome =
-      Shell("timeout --preserve-status --signal=INT 1 " OCTUPOLE_COMMAND " field " + Bracket() +
-            " --solver cgnr --output " + Quoted(folder / "field.vtu") + " --report " + Quoted(folder / "report.json"));
+      Shell(Interrupting("INT") + " " OCTUPOLE_COMMAND " field " + Bracket() + " --solver cgnr --output " +
+            Quoted(folder / "field.vtu") + " --report " + Quoted(folder / "report.json"));
   EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("interrupted"));
   EXPECT_EQ(ReadReport(folder / "report.json")["termination"], "USER_SUCCESS");

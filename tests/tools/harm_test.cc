@@ -180,8 +180,7 @@ TEST_F(Harm, AFullDiskLeavesWhatWasThereAndNothingElse) {
 // A batch system's signal, and Ctrl-C.
 TEST_F(Harm, AnInterruptedSolverWritesTheFieldAndSaysSo) {
   for (const auto& [signal, exit_code] : {std::pair("INT", 130), std::pair("TERM", 143)}) {
-    const Outcome outcome = Run("field " + Bracket() + " --solver cgnr -o f.vtu",
-                                std::string("timeout --preserve-status --signal=") + signal + " 1");
+    const Outcome outcome = Run("field " + Bracket() + " --solver cgnr -o f.vtu", Interrupting(signal));
     EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr("interrupted; the field reached so far is in f.vtu"));
     EXPECT_FALSE(ReadText(folder_ / "f.vtu").empty());
@@ -192,10 +191,9 @@ TEST_F(Harm, AnInterruptedSolverWritesTheFieldAndSaysSo) {
 TEST_F(Harm, AnInterruptedComparisonEndsItsRunAndLeavesNothingBehind) {
   for (const auto& [signal, exit_code] : {std::pair("INT", 130), std::pair("TERM", 143)}) {
     std::filesystem::create_directory(folder_ / "scratch");
-    // A minute's work; --foreground sends the signal to this process alone, as batch systems may.
-    const Outcome outcome =
-        Run("compare " + Bracket() + " --methods octupole-cholesky --csv c.csv",
-            "TMPDIR=scratch timeout --foreground --preserve-status --signal=" + std::string(signal) + " 1");
+    // A minute's work; the signal goes to this process alone, as batch systems may send it.
+    const Outcome outcome = Run("compare " + Bracket() + " --methods octupole-cholesky --csv c.csv",
+                                "TMPDIR=scratch " + Interrupting(signal));
     EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr("interrupted"));
     EXPECT_THAT(ContentsOf(folder_ / "scratch"), IsEmpty());

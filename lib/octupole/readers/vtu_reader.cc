@@ -17,7 +17,7 @@
 namespace octupole::internal {
 namespace {
 
-std::optional<NumberType> FindType(std::string_view name) {
+std::optional<NumberType> FindArrayType(std::string_view name) {
   constexpr std::pair<std::string_view, NumberType> kTypes[] = {
       {"Float32", NumberType::kFloat32}, {"Float64", NumberType::kFloat64}, {"Int8", NumberType::kInt8},
       {"UInt8", NumberType::kUInt8},     {"Int16", NumberType::kInt16},     {"UInt16", NumberType::kUInt16},
@@ -244,7 +244,7 @@ class VtuReader {
     }
     cells.connectivity = ReadIntegers<std::int64_t>(connectivity, previous);
     for (const pugi::xml_node& array : piece.child("CellData").children("DataArray")) {
-      const std::optional<NumberType> type = FindType(array.attribute("type").value());
+      const std::optional<NumberType> type = FindArrayType(array.attribute("type").value());
       if (cells.regions.empty() && type && IsInteger(*type) && array.attribute("NumberOfComponents").as_int(1) == 1) {
         cells.regions = ReadIntegers<int>(array, num_cells);
       }
@@ -257,7 +257,7 @@ class VtuReader {
 
   void ReadArrays(const pugi::xml_node& data, std::int64_t count, std::map<std::string, std::vector<double>>* arrays) {
     for (const pugi::xml_node& array : data.children("DataArray")) {
-      if (!FindType(array.attribute("type").value())) continue;  // such as strings
+      if (!FindArrayType(array.attribute("type").value())) continue;  // such as strings
       constexpr std::int64_t kMaxComponents = 1000;
       const std::int64_t components =
           array.attribute("NumberOfComponents") ? NextAttribute(array, "NumberOfComponents", kMaxComponents) : 1;
@@ -325,7 +325,7 @@ class VtuReader {
   template <typename Take>
   void ReadNumbers(const pugi::xml_node& array, std::int64_t count, const Take& take) {
     const std::string_view type_name = array.attribute("type").value();
-    const std::optional<NumberType> type = FindType(type_name);
+    const std::optional<NumberType> type = FindArrayType(type_name);
     if (!type) {
       Fail(array, "the type " + Quoted(type_name) + " of a DataArray is not known");
     }

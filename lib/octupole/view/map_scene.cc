@@ -18,8 +18,8 @@ namespace {
 using Eigen::Vector3d;
 using internal::SceneText;
 
-enum Kind { kValence3, kValence5, kOtherTurns, kObstacle };
-const std::vector<SceneKind> kKinds = {
+enum MapKind { kEdgeOfValence3, kEdgeOfValence5, kEdgeOfOtherTurn, kObstacle };
+const std::vector<SceneKind> kMapKinds = {
     {"valence 3", "#e5484d"}, {"valence 5", "#3e7bfa"}, {"other turns", "#e2a610"}, {"in the way", "#a13fd1"}};
 
 // Calls `use` with each whole number that lies between corners' values, and which corners are at or above it.
@@ -118,7 +118,7 @@ void AddCurves(const MapDomain& domain, Scene* scene) {
     }
     SceneCurve curve;
     const int valence = edges[first].valence;
-    curve.kind = valence == 3 ? kValence3 : valence == 5 ? kValence5 : kOtherTurns;
+    curve.kind = valence == 3 ? kEdgeOfValence3 : valence == 5 ? kEdgeOfValence5 : kEdgeOfOtherTurn;
     double length = 0;
     for (const int v : vertices) {
       curve.points.push_back(domain.mesh.points[v]);
@@ -148,7 +148,7 @@ Scene MakeMapScene(const std::string& title, const MapDomain& domain, const Corn
   }
   Scene scene;
   scene.title = title;
-  scene.kinds = kKinds;
+  scene.kinds = kMapKinds;
   const TriangleMesh boundary = BoundarySurface(domain.mesh);
   internal::AddSurface("boundary", domain.mesh.points, boundary.triangles, true, &scene);
   scene.surfaces.push_back(GridInside(domain.mesh, parameters));

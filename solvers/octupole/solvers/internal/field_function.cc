@@ -10,7 +10,7 @@ namespace octupole::internal {
 namespace {
 
 // Ranges of vertices for the workers; a multiple of the vertices that share a register.
-constexpr std::size_t kGrain = 2048;
+constexpr std::size_t kFieldGrain = 2048;
 
 }  // namespace
 
@@ -158,14 +158,14 @@ void FieldFunction<kDegree, Scalar>::Evaluate(const Scalar* parameters, double* 
 
 template <int kDegree, typename Scalar>
 void FieldFunction<kDegree, Scalar>::Expand(const Scalar* parameters) const {
-  workers_->ForEachRange(graph_.num_owned, kGrain,
+  workers_->ForEachRange(graph_.num_owned, kFieldGrain,
                          [&](std::size_t begin, std::size_t end) { ExpandRange(parameters, begin, end); });
 }
 
 template <int kDegree, typename Scalar>
 double FieldFunction<kDegree, Scalar>::Sweep(std::size_t first, std::size_t last, Scalar* gradient) const {
   const bool is_weighted = !graph_.weights.empty();
-  return workers_->Sum(last - first, kGrain, [&](std::size_t begin, std::size_t end) {
+  return workers_->Sum(last - first, kFieldGrain, [&](std::size_t begin, std::size_t end) {
     return CallVectorised([&]() OCTUPOLE_INLINE_LAMBDA {
       return is_weighted ? SweepRange<true>(first + begin, first + end, gradient)
                          : SweepRange<false>(first + begin, first + end, gradient);
@@ -176,7 +176,7 @@ double FieldFunction<kDegree, Scalar>::Sweep(std::size_t first, std::size_t last
 template <int kDegree, typename Scalar>
 std::vector<Scalar> FieldFunction<kDegree, Scalar>::ParametersOf(const std::vector<Harmonic<kDegree>>& field) const {
   std::vector<Scalar> parameters(num_parameters());
-  workers_->ForEachRange(field.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  workers_->ForEachRange(field.size(), kFieldGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       Scalar* x = parameters.data() + first_parameter_[v];
       if (first_axis_row_[v] >= 0) {
@@ -196,7 +196,7 @@ std::vector<Scalar> FieldFunction<kDegree, Scalar>::ParametersOf(const std::vect
 template <int kDegree, typename Scalar>
 std::vector<Harmonic<kDegree>> FieldFunction<kDegree, Scalar>::FieldOf(const std::vector<Scalar>& parameters) const {
   std::vector<Harmonic<kDegree>> field(graph_.num_vertices());
-  workers_->ForEachRange(field.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  workers_->ForEachRange(field.size(), kFieldGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       const Scalar* x = parameters.data() + first_parameter_[v];
       if (NumParameters(v) == kDimension<kDegree> || v >= graph_.num_owned) {

@@ -11,7 +11,7 @@
 namespace octupole::internal {
 namespace {
 
-constexpr std::size_t kGrain = 2048;
+constexpr std::size_t kFrameGrain = 2048;
 
 // The unit harmonics of frames, one per lane: the sum of the basis functions of degree 4 (harmonics.cc) at the three
 // axes, of unit length, scaled.
@@ -69,7 +69,7 @@ FrameFunction<Scalar>::FrameFunction(const SweepGraph& graph, const std::vector<
   first_parameter_.resize(num_rows + 1, first_parameter_.back());
   rows_.resize(num_rows);
   frame_lanes_.resize(num_rows / kLanes<Scalar>);
-  workers_->ForEachRange(num_vertices, kGrain, [&](std::size_t begin, std::size_t end) {
+  workers_->ForEachRange(num_vertices, kFrameGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       for (int i = 0; i < 9; ++i) {
         frame_lanes_[v / kLanes<Scalar>].entries[i][v % kLanes<Scalar>] = static_cast<Scalar>(frames[v](i % 3, i / 3));
@@ -238,7 +238,7 @@ void FrameFunction<Scalar>::Evaluate(const Scalar* parameters, double* cost, Sca
 
 template <typename Scalar>
 void FrameFunction<Scalar>::Expand(const Scalar* parameters) const {
-  workers_->ForEachRange(graph_.num_owned, kGrain, [&](std::size_t begin, std::size_t end) {
+  workers_->ForEachRange(graph_.num_owned, kFrameGrain, [&](std::size_t begin, std::size_t end) {
     CallVectorised([&]() OCTUPOLE_INLINE_LAMBDA { ExpandRange(parameters, begin, end); });
   });
   // The rows past the end are to stay zero.
@@ -249,7 +249,7 @@ template <typename Scalar>
 double FrameFunction<Scalar>::Sweep(std::size_t first, std::size_t last, const Scalar* parameters,
                                     Scalar* gradient) const {
   const bool is_weighted = !graph_.weights.empty();
-  return workers_->Sum(last - first, kGrain, [&](std::size_t begin, std::size_t end) {
+  return workers_->Sum(last - first, kFrameGrain, [&](std::size_t begin, std::size_t end) {
     return CallVectorised([&]() OCTUPOLE_INLINE_LAMBDA {
       return is_weighted ? SweepRange<true>(parameters, first + begin, first + end, gradient)
                          : SweepRange<false>(parameters, first + begin, first + end, gradient);
@@ -260,7 +260,7 @@ double FrameFunction<Scalar>::Sweep(std::size_t first, std::size_t last, const S
 template <typename Scalar>
 std::vector<Eigen::Matrix3d> FrameFunction<Scalar>::FramesOf(const std::vector<Scalar>& parameters) const {
   std::vector<Eigen::Matrix3d> frames(frames_.size());
-  workers_->ForEachRange(frames.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  workers_->ForEachRange(frames.size(), kFrameGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       const Scalar* x = parameters.data() + first_parameter_[v];
       Eigen::Vector3d r = Eigen::Vector3d::Zero();

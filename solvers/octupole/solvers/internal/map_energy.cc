@@ -10,7 +10,7 @@
 namespace octupole::internal {
 namespace {
 
-constexpr std::size_t kGrain = 4096;
+constexpr std::size_t kTetGrain = 4096;
 
 double Dot(const Vector& a, const Vector& b) {
   double sum = 0;
@@ -88,7 +88,7 @@ void MapEnergy::SetTargets(const std::vector<Eigen::Matrix3d>& jacobians) {
 }
 
 void MapEnergy::SetParameters(const Vector& x, bool is_direction) {
-  workers_->ForEachRange(u_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  workers_->ForEachRange(u_.size(), kTetGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
       double sum = is_direction ? 0 : system_.offset[row];
       for (std::size_t i = system_.begin[row]; i < system_.begin[row + 1]; ++i) {
@@ -115,7 +115,7 @@ void MapEnergy::PutForces(std::size_t t, const Eigen::Matrix3d& by_jacobian) {
 }
 
 void MapEnergy::GatherForces(Vector* result) {
-  workers_->ForEachRange(corners_begin_.size() - 1, kGrain, [&](std::size_t begin, std::size_t end) {
+  workers_->ForEachRange(corners_begin_.size() - 1, kTetGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
       for (std::size_t i = corners_begin_[n]; i < corners_begin_[n + 1]; ++i) {
@@ -126,7 +126,7 @@ void MapEnergy::GatherForces(Vector* result) {
     }
   });
   result->resize(num_unknowns_);
-  workers_->ForEachRange(num_unknowns_, kGrain, [&](std::size_t begin, std::size_t end) {
+  workers_->ForEachRange(num_unknowns_, kTetGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t j = begin; j < end; ++j) {
       double sum = 0;
       for (std::size_t i = rows_begin_[j]; i < rows_begin_[j + 1]; ++i) {
@@ -139,7 +139,7 @@ void MapEnergy::GatherForces(Vector* result) {
 
 const std::vector<double>& MapEnergy::Determinants(const Vector& x) {
   SetParameters(x, false);
-  workers_->ForEachRange(tets_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  workers_->ForEachRange(tets_.size(), kTetGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) determinants_[t] = JacobianOf(tets_[t]).determinant();
   });
   return determinants_;
@@ -147,7 +147,7 @@ const std::vector<double>& MapEnergy::Determinants(const Vector& x) {
 
 double MapEnergy::EvaluateFrames(const Vector& x, Vector* gradient) {
   SetParameters(x, false);
-  const double energy = workers_->Sum(tets_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  const double energy = workers_->Sum(tets_.size(), kTetGrain, [&](std::size_t begin, std::size_t end) {
     double sum = 0;
     for (std::size_t t = begin; t < end; ++t) {
       Tet& tet = tets_[t];
@@ -167,7 +167,7 @@ double MapEnergy::EvaluateFrames(const Vector& x, Vector* gradient) {
 
 double MapEnergy::EvaluateFoldovers(const Vector& x, double epsilon, Vector* gradient) {
   SetParameters(x, false);
-  const double energy = workers_->Sum(tets_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  const double energy = workers_->Sum(tets_.size(), kTetGrain, [&](std::size_t begin, std::size_t end) {
     double sum = 0;
     for (std::size_t t = begin; t < end; ++t) {
       Tet& tet = tets_[t];
@@ -190,7 +190,7 @@ double MapEnergy::EvaluateFoldovers(const Vector& x, double epsilon, Vector* gra
 
 void MapEnergy::Multiply(const Vector& p, Vector* product) {
   SetParameters(p, true);
-  workers_->ForEachRange(tets_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  workers_->ForEachRange(tets_.size(), kTetGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
       const Tet& tet = tets_[t];
       const Eigen::Matrix3d change = JacobianOf(tet);
