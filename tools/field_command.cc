@@ -237,7 +237,7 @@ void RunField(const FieldArguments& arguments) {
       {"boundary_max_deg", quality.boundary_max_deg},
       {"singular_triangles", quality.singular_triangles},
       {"singular_triangles_by_type", CountsByType(quality)},
-      {"singular_structure", SingularStructure(curves, surface)},
+      {"singular_structure", SingularStructureReport(curves, surface)},
       {"seconds",
        {{"read", read_seconds},
         {"setup", field.setup_seconds},

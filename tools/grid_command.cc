@@ -239,7 +239,7 @@ void RunGrid(const GridArguments& arguments) {
       {"boundary_rms_deg", quality.boundary_rms_deg},
       {"boundary_max_deg", quality.boundary_max_deg},
       {"boundary_samples", quality.boundary_samples},
-      {"singular_structure", SingularStructure(curves, {})},
+      {"singular_structure", SingularStructureReport(curves, {})},
       {"seconds",
        {{"read", read_seconds},
         {"grid", grid_seconds},

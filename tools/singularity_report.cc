@@ -25,7 +25,7 @@ nlohmann::ordered_json CountsByType(const FieldQuality& quality) {
   return counts;
 }
 
-nlohmann::ordered_json SingularStructure(const SingularCurves& curves, const SurfaceSingularities& surface) {
+nlohmann::ordered_json SingularStructureReport(const SingularCurves& curves, const SurfaceSingularities& surface) {
   Group all;
   std::map<std::pair<TurnType, int>, Group> groups;  // by type and valence
   std::map<CurveEnd, std::size_t> num_ends;

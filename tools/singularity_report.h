@@ -13,7 +13,7 @@ namespace octupole {
 nlohmann::ordered_json CountsByType(const FieldQuality& quality);
 
 /// The section "singular_structure" of the report.
-nlohmann::ordered_json SingularStructure(const SingularCurves& curves, const SurfaceSingularities& surface);
+nlohmann::ordered_json SingularStructureReport(const SingularCurves& curves, const SurfaceSingularities& surface);
 
 /// Its line in the printed summary.
 std::string SummaryOf(const nlohmann::ordered_json& singular_structure);
