@@ -20,8 +20,8 @@
 #include "octupole/adaptors/surface_grid_sampler.h"
 #include "octupole/adaptors/surface_grid_tets.h"
 #include "octupole/adaptors/surface_grid_vdb.h"
+#include "octupole/adaptors/surface_grid_writer.h"
 #include "octupole/adaptors/triangle_mesh_reader.h"
-#include "octupole/io/field_writer.h"
 #include "octupole/io/sample_files.h"
 #include "octupole/io/singularity_writer.h"
 #include "octupole/readers/tet_mesh_reader.h"
@@ -111,15 +111,6 @@ std::vector<std::size_t> CountCellsByLevel(const SurfaceGrid& grid, int num_leve
   return counts;
 }
 
-template <int kDegree>
-void WriteGrid(const std::filesystem::path& path, const SurfaceGrid& grid, const FieldSolution<kDegree>& field) {
-  const std::vector<double> distances(grid.distances.begin(), grid.distances.end());
-  const std::vector<std::int32_t> levels(grid.levels.begin(), grid.levels.end());
-  WriteField<kDegree>(path, grid.points, {{VtuCellType::kHexahedron, grid.cells[0].data(), grid.cells.size()}},
-                      field.coefficients, field.frames, grid.graph.alignments, {{"distance", 1, distances.data()}},
-                      {{"level", 1, levels.data()}});
-}
-
 // A page of the field at the nodes inside the solid; those outside are there for the surface's sake.
 template <int kDegree>
 void WritePage(const GridArguments& arguments, const TriangleMesh& surface, const SurfaceGrid& grid,
@@ -200,7 +191,7 @@ void RunGrid(const GridArguments& arguments) {
   const GridQuality quality = MeasureGridField(surface, grid, field.frames);
   const double measure_seconds = stopwatch.Lap();
 
-  WriteGrid<kDegree>(arguments.output, grid, field);
+  WriteGridField<kDegree>(arguments.output, grid, field.coefficients, field.frames);
   if (!arguments.singularities.empty()) WriteSingularities(arguments.singularities, curves, {}, {}, {});
   if (!arguments.vdb.empty()) WriteGridVdb(arguments.vdb, grid, field.frames);
   if (!arguments.html.empty()) WritePage<kDegree>(arguments, surface, grid, field, curves, quality);
@@ -314,10 +305,7 @@ void AddGridCommand(CLI::App* app) {
       ->option_text("DEG [40]");
   command
       ->add_option_function<std::string>(
-          "--repair",
-          [arguments](const std::string& name) {
-            arguments->grid.repair = name == "close" ? HoleRepair::kClose : HoleRepair::kNone;
-          },
+          "--repair", [arguments](const std::string& name) { arguments->grid.repair = HoleRepairOf(name); },
           "Where the surface is open: none, an error; or close, with caps")
       ->check(CLI::IsMember({"none", "close"}))
       ->option_text("NAME [none]");

@@ -1,4 +1,4 @@
-"""Frame fields on tetrahedral meshes and cross fields on surfaces.
+"""Frame fields on tetrahedral meshes and inside closed surfaces, and cross fields on surfaces.
 
     import octupole
     field = octupole.solve(points, tets)      # or octupole.solve(octupole.read("part.mesh"))
@@ -7,6 +7,9 @@
 
 Coordinates are in any one unit of length, angles in degrees unless said otherwise. Arrays that belong to a mesh or to a
 field are views of its memory and read-only; .copy() them to change them.
+
+solve_grid() is there where the library was built with OpenVDB, OCTUPOLE_WITH_OPENVDB; elsewhere it raises
+NotImplementedError.
 """
 
 from __future__ import annotations
@@ -17,6 +20,8 @@ from ._core import (
     Field,
     FieldQuality,
     GraphField,
+    GridField,
+    GridQuality,
     SeamlessMap,
     SingularCurve,
     SingularCurves,
@@ -26,6 +31,7 @@ from ._core import (
     __version__,
     _solve,
     _solve_graph,
+    _solve_grid,
     _solve_surface,
     box_mesh,
     deviation,
@@ -50,6 +56,8 @@ __all__ = [
     "Field",
     "FieldQuality",
     "GraphField",
+    "GridField",
+    "GridQuality",
     "SeamlessMap",
     "SingularCurve",
     "SingularCurves",
@@ -72,6 +80,7 @@ __all__ = [
     "seamless_map",
     "solve",
     "solve_graph",
+    "solve_grid",
     "solve_surface",
 ]
 
@@ -154,6 +163,20 @@ def solve(
     )
 
 
+def _surface(
+    caller: str, points: TriangleMesh | ArrayLike, triangles: Optional[ArrayLike], feature_edges: Optional[ArrayLike]
+) -> TriangleMesh:
+    if not isinstance(points, TriangleMesh):
+        return TriangleMesh(points, triangles, feature_edges=feature_edges)
+    if triangles is not None:
+        raise TypeError(f"{caller}: a TriangleMesh comes without triangles, it has its own")
+    if feature_edges is None:
+        return points
+    return TriangleMesh(
+        points.points, points.triangles, feature_edges=feature_edges, feature_points=points.feature_points
+    )
+
+
 def solve_surface(
     points: TriangleMesh | ArrayLike,
     triangles: Optional[ArrayLike] = None,
@@ -181,18 +204,8 @@ def solve_surface(
 
     All else, and what it raises, is as in solve().
     """
-    if isinstance(points, TriangleMesh):
-        if triangles is not None:
-            raise TypeError("solve_surface: a TriangleMesh comes without triangles, it has its own")
-        mesh = points
-        if feature_edges is not None:
-            mesh = TriangleMesh(
-                mesh.points, mesh.triangles, feature_edges=feature_edges, feature_points=mesh.feature_points
-            )
-    else:
-        mesh = TriangleMesh(points, triangles, feature_edges=feature_edges)
     return _solve_surface(
-        mesh,
+        _surface("solve_surface", points, triangles, feature_edges),
         degree=degree,
         method=method,
         feature_angle=feature_angle,
@@ -245,5 +258,62 @@ def solve_graph(
         solver=solver,
         max_iterations=max_iterations,
         start=start,
+        callback=callback,
+    )
+
+
+def solve_grid(
+    points: TriangleMesh | ArrayLike,
+    triangles: Optional[ArrayLike] = None,
+    *,
+    resolution: Optional[int] = None,
+    size: Optional[float] = None,
+    levels: int = 1,
+    degree: int = 3,
+    method: str = "penalty",
+    feature_angle: float = 40.0,
+    seed: int = 0,
+    starts: int = 5,
+    threads: int = 1,
+    solver: str = "fast",
+    max_iterations: Optional[int] = None,
+    feature_edges: Optional[ArrayLike] = None,
+    repair: str = "none",
+    callback: Optional[Callback] = None,
+) -> GridField:
+    """A frame field inside a closed surface, on a grid of cubes and without a tet mesh.
+
+    points: (n, 3) coordinates; or a TriangleMesh without `triangles`, as read_surface() or TetMesh.boundary_surface()
+        give it.
+    triangles: (m, 3) indices of points, from 0, of any shape and orientation; they may cross each other.
+    resolution: the number of finest cells along the longest side of the bounding box; 64, if there is no `size` either.
+    size: the edge length of the finest cells, in the unit of the points.
+    levels: how many sizes of cells there are, each twice the one before, from the surface inwards; 1 to 8.
+    threads: for the grid, too.
+    feature_edges: (k, 2) pairs of points, edges of the surface that the field is to follow. No others are searched for
+        then.
+    repair: where the surface is open: "none", a ValueError, or "close", which closes holes with caps.
+    callback: as of solve(), on one grid after the other, from coarse to fine, each with iterations of its own. When it
+        returns something true, the finer grids are still made and have the frames reached on the one before.
+
+    All else is as in solve(). What is odd about the surface is a UserWarning. Python's lock is released; Ctrl-C raises
+    KeyboardInterrupt at the next iteration, not while a grid is made.
+    Raises ValueError naming the first value that is wrong, or the memory that a grid would need where there is not so
+    much, and NotImplementedError where the library was built without OCTUPOLE_WITH_OPENVDB.
+    """
+    return _solve_grid(
+        _surface("solve_grid", points, triangles, feature_edges),
+        resolution=resolution,
+        size=size,
+        levels=levels,
+        degree=degree,
+        method=method,
+        feature_angle=feature_angle,
+        seed=seed,
+        starts=starts,
+        threads=threads,
+        solver=solver,
+        max_iterations=max_iterations,
+        repair=repair,
         callback=callback,
     )

@@ -1,3 +1,5 @@
+#include "fields.h"
+
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
@@ -9,7 +11,6 @@
 #include <optional>
 #include <string>
 #include <type_traits>
-#include <variant>
 #include <vector>
 
 #include "arrays.h"
@@ -28,23 +29,10 @@
 #include "octupole/solvers/field_solver.h"
 #include "octupole/solvers/method_names.h"
 #include "octupole/solvers/solver_presets.h"
-#include "progress.h"
 #include "surface_mesh.h"
 
 namespace octupole::python {
 namespace {
-
-// A solution of either degree.
-struct AnyField {
-  std::variant<Field<3>, Field<4>> field;
-
-  const FrameSolution& solution() const {
-    return std::visit([](const auto& f) -> const FrameSolution& { return f; }, field);
-  }
-  const std::vector<Alignment>& alignments() const {
-    return std::visit([](const auto& f) -> const std::vector<Alignment>& { return f.alignment.alignments; }, field);
-  }
-};
 
 struct TetField : AnyField {
   std::shared_ptr<const TetMesh> mesh;
@@ -54,24 +42,6 @@ struct TetField : AnyField {
 
 struct SurfaceField : AnyField {
   std::shared_ptr<const SurfaceMesh> mesh;
-};
-
-struct SolveArguments {
-  int degree;
-  std::string method;
-  double feature_angle;
-  std::string boundary;
-  /// Whether surfaces inside the mesh align the field; if nothing is said, the library decides.
-  std::optional<bool> follow_regions;
-  std::string weights;
-  std::uint32_t seed;
-  int starts;
-  int threads;
-  std::string solver;
-  std::optional<int> max_iterations;
-  std::vector<Constraint> constraints;
-  /// None, a TetField, or an array of frames or of coefficients.
-  py::object start;
 };
 
 // An axis (3,) or a frame (3, 3), at an index for messages.
@@ -137,50 +107,22 @@ const std::vector<Eigen::Vector3d>* PointsOf(const TetMesh& mesh) { return &mesh
 const std::vector<Eigen::Vector3d>* PointsOf(const TriangleMesh& mesh) { return &mesh.points; }
 const std::vector<Eigen::Vector3d>* PointsOf(const FieldGraph& /*graph*/) { return nullptr; }
 
-template <int kDegree>
-FieldOptions<kDegree> OptionsFrom(const SolveArguments& arguments, Progress* progress) {
-  FieldOptions<kDegree> options;
-  options.method = FieldMethodOf(arguments.method);
-  options.feature_angle_deg = arguments.feature_angle;
-  options.open_boundary = OpenBoundaryOf(arguments.boundary);
-  if (arguments.follow_regions) {
-    options.regions = *arguments.follow_regions ? RegionUse::kFollow : RegionUse::kIgnore;
-  }
-  options.edge_weights = EdgeWeightsOf(arguments.weights);
-  options.constraints = arguments.constraints;
-  options.seed = arguments.seed;
-  options.minimizer.num_starts = arguments.starts;
-  options.minimizer.num_threads = arguments.threads;
-  if (arguments.max_iterations) options.minimizer.max_iterations = *arguments.max_iterations;
-  options.minimizer.callback = progress;
-  const std::optional<SolverPreset> preset = SolverPresetOf(arguments.solver);
-  if (!preset) return options;
-  options.solver = MakeSolverOptions(*preset);
-  options.solver->num_threads = arguments.threads;
-  if (arguments.max_iterations) options.solver->max_num_iterations = *arguments.max_iterations;
-  options.solver->callbacks.push_back(progress);
-  return options;
-}
-
 template <int kDegree, typename Mesh>
 Field<kDegree> SolveUnlocked(const Mesh& mesh, const SolveArguments& arguments, Progress* progress) {
   FieldOptions<kDegree> options = OptionsFrom<kDegree>(arguments, progress);
   SetStart<kDegree>(arguments.start, PointsOf(mesh), &options);
   Field<kDegree> field = Unlocked([&] { return SolveField<kDegree>(mesh, options); });
   progress->ThrowError();
-  if (!field.IsUsable()) {
-    throw std::runtime_error("the solver failed: " +
-                             (field.ceres_summary ? field.ceres_summary->message : "the energy is not finite"));
-  }
+  CheckUsable(field);
   return field;
 }
 
 template <typename Mesh>
-std::variant<Field<3>, Field<4>> Solve(const Mesh& mesh, const SolveArguments& arguments, const py::object& callback) {
+AnyField Solve(const Mesh& mesh, const SolveArguments& arguments, const py::object& callback) {
   Progress progress(callback);
-  if (arguments.degree == 3) return SolveUnlocked<3>(mesh, arguments, &progress);
-  if (arguments.degree == 4) return SolveUnlocked<4>(mesh, arguments, &progress);
-  throw std::invalid_argument("degree: 3 or 4 expected, not " + std::to_string(arguments.degree));
+  return OfDegree(arguments.degree, [&](auto degree) {
+    return AnyField{SolveUnlocked<decltype(degree)::value>(mesh, arguments, &progress)};
+  });
 }
 
 // Edges (m, 2), weights (m,) or one for all, and for each vertex None, an axis or a frame.
@@ -492,6 +434,34 @@ byte. Raises OSError when it cannot be written.)");
 
 }  // namespace
 
+template <int kDegree>
+FieldOptions<kDegree> OptionsFrom(const SolveArguments& arguments, Progress* progress) {
+  FieldOptions<kDegree> options;
+  options.method = FieldMethodOf(arguments.method);
+  options.feature_angle_deg = arguments.feature_angle;
+  options.open_boundary = OpenBoundaryOf(arguments.boundary);
+  if (arguments.follow_regions) {
+    options.regions = *arguments.follow_regions ? RegionUse::kFollow : RegionUse::kIgnore;
+  }
+  options.edge_weights = EdgeWeightsOf(arguments.weights);
+  options.constraints = arguments.constraints;
+  options.seed = arguments.seed;
+  options.minimizer.num_starts = arguments.starts;
+  options.minimizer.num_threads = arguments.threads;
+  if (arguments.max_iterations) options.minimizer.max_iterations = *arguments.max_iterations;
+  options.minimizer.callback = progress;
+  const std::optional<SolverPreset> preset = SolverPresetOf(arguments.solver);
+  if (!preset) return options;
+  options.solver = MakeSolverOptions(*preset);
+  options.solver->num_threads = arguments.threads;
+  if (arguments.max_iterations) options.solver->max_num_iterations = *arguments.max_iterations;
+  options.solver->callbacks.push_back(progress);
+  return options;
+}
+
+template FieldOptions<3> OptionsFrom<3>(const SolveArguments& arguments, Progress* progress);
+template FieldOptions<4> OptionsFrom<4>(const SolveArguments& arguments, Progress* progress);
+
 void AddFields(py::module_* module) {
   AddQuality(module);
   AddCurves(module);
@@ -534,21 +504,21 @@ void AddFields(py::module_* module) {
          const std::string& method, std::uint32_t seed, int starts, int threads, const std::string& solver,
          std::optional<int> max_iterations, const py::object& start, const py::object& callback) {
         const double unused_angle = FieldOptions<3>().feature_angle_deg;
-        return AnyField{Solve(GraphFrom(edges, weights, alignments),
-                              {degree,
-                               method,
-                               unused_angle,
-                               "aligned",
-                               std::nullopt,
-                               "uniform",
-                               seed,
-                               starts,
-                               threads,
-                               solver,
-                               max_iterations,
-                               {},
-                               start},
-                              callback)};
+        return Solve(GraphFrom(edges, weights, alignments),
+                     {degree,
+                      method,
+                      unused_angle,
+                      "aligned",
+                      std::nullopt,
+                      "uniform",
+                      seed,
+                      starts,
+                      threads,
+                      solver,
+                      max_iterations,
+                      {},
+                      start},
+                     callback);
       },
       py::arg("edges"), py::arg("weights"), py::arg("alignments"), py::kw_only(), py::arg("degree"), py::arg("method"),
       py::arg("seed"), py::arg("starts"), py::arg("threads"), py::arg("solver"), py::arg("max_iterations"),

@@ -28,11 +28,6 @@ TetMesh TetsFrom(const Reals& points, const py::array& tets) {
   return Unlocked([&] { return TetMeshFromArrays(points.data(), points.shape(0), indices.data(), indices.shape(0)); });
 }
 
-// One of Python's warnings, or an exception where the user has made it one.
-void Warn(const std::string& text) {
-  if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw py::error_already_set();
-}
-
 template <typename Mesh>
 void SetFeatures(const py::object& feature_edges, const py::object& feature_points, Mesh* mesh) {
   if (!feature_edges.is_none()) mesh->feature_edges = RowsFrom<2>(feature_edges, "feature_edges");
@@ -67,6 +62,12 @@ std::shared_ptr<TetMesh> Replaced(const TetMesh& mesh, const py::object& regions
   return copy;
 }
 
+// Each triangle is a face.
+void NumberFaces(SurfaceMesh* mesh) {
+  mesh->faces.resize(mesh->triangles.size());
+  std::iota(mesh->faces.begin(), mesh->faces.end(), 0);
+}
+
 std::shared_ptr<SurfaceMesh> MakeTriangleMesh(const py::object& points, const py::object& triangles,
                                               const py::object& feature_edges, const py::object& feature_points) {
   auto mesh = std::make_shared<SurfaceMesh>();
@@ -74,15 +75,21 @@ std::shared_ptr<SurfaceMesh> MakeTriangleMesh(const py::object& points, const py
   mesh->triangles = RowsFrom<3>(triangles, "triangles");
   SetFeatures(feature_edges, feature_points, mesh.get());
   CheckTriangleMesh(*mesh);
-  mesh->faces.resize(mesh->triangles.size());
-  std::iota(mesh->faces.begin(), mesh->faces.end(), 0);
+  NumberFaces(mesh.get());
   return mesh;
+}
+
+std::shared_ptr<SurfaceMesh> BoundaryOf(const TetMesh& mesh) {
+  auto surface = std::make_shared<SurfaceMesh>();
+  static_cast<TriangleMesh&>(*surface) = Unlocked([&] { return BoundarySurface(mesh); });
+  NumberFaces(surface.get());
+  return surface;
 }
 
 std::shared_ptr<TetMesh> Read(const std::filesystem::path& path) {
   std::vector<std::string> warnings;
   auto mesh = WithFile([&] { return std::make_shared<TetMesh>(ReadTetMesh(path, &warnings)); });
-  for (const std::string& warning : warnings) Warn(path.string() + ": " + warning);
+  for (const std::string& warning : warnings) Warn(path.string() + ": " + warning, 1);
   return mesh;
 }
 
@@ -91,7 +98,7 @@ std::shared_ptr<SurfaceMesh> ReadSurface(const std::filesystem::path& path) {
   std::vector<std::string> warnings;
   auto mesh = std::make_shared<SurfaceMesh>();
   WithFile([&] { static_cast<TriangleMesh&>(*mesh) = ReadTriangleMesh(path, &warnings, &mesh->faces); });
-  for (const std::string& warning : warnings) Warn(path.string() + ": " + warning);
+  for (const std::string& warning : warnings) Warn(path.string() + ": " + warning, 1);
   return mesh;
 }
 #endif
@@ -132,6 +139,10 @@ Raises ValueError naming the first value that is wrong, TypeError for arrays of 
       .def_property_readonly("surface_tags", View<TetMesh>(&TetMesh::surface_tags), "(k,) int32: their tags")
       .def_property_readonly("mid_edge_nodes", View<TetMesh>(&TetMesh::mid_edge_nodes),
                              "(k, 3) int32: {v, a, b}, v being the node between a and b of second-order tets")
+      .def("boundary_surface", &BoundaryOf, R"(boundary_surface(self)
+--
+
+Its boundary as a TriangleMesh on the same points, for solve_surface() or solve_grid().)")
       .def("_replaced", &Replaced, py::arg("regions"), py::arg("feature_edges"))
       .def("__repr__", [](const TetMesh& mesh) {
         return "<octupole.TetMesh: " + std::to_string(mesh.points.size()) + " points, " +

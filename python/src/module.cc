@@ -9,6 +9,7 @@ PYBIND11_MODULE(_core, module) {
   octupole::python::AddMathematics(&module);
   octupole::python::AddMeshes(&module);
   octupole::python::AddFields(&module);
+  octupole::python::AddGrids(&module);
   octupole::python::AddInfo(&module);
   octupole::python::AddMaps(&module);
 }

@@ -410,9 +410,8 @@ class GridMaker {
     for (WeightedEdge& edge : *edges) {
       if (edge.a > edge.b) std::swap(edge.a, edge.b);
     }
-    std::sort(edges->begin(), edges->end(), [](const WeightedEdge& e, const WeightedEdge& f) {
-      return std::pair(e.a, e.b) < std::pair(f.a, f.b);
-    });
+    std::sort(edges->begin(), edges->end(),
+              [](const WeightedEdge& e, const WeightedEdge& f) { return std::pair(e.a, e.b) < std::pair(f.a, f.b); });
     std::size_t num_merged = 0;
     for (const WeightedEdge& edge : *edges) {
       WeightedEdge* last = num_merged > 0 ? &(*edges)[num_merged - 1] : nullptr;
@@ -490,6 +489,12 @@ void internal::CheckGridSize(const TriangleMesh& surface, const GridOptions& opt
             << forecast.bytes / 1e9 << " GB of memory; there are " << available / 1e9;
     throw std::length_error(message.str());
   }
+}
+
+HoleRepair HoleRepairOf(const std::string& name) {
+  if (name == "none") return HoleRepair::kNone;
+  if (name == "close") return HoleRepair::kClose;
+  throw std::invalid_argument("repair: '" + name + "' is none of close, none");
 }
 
 SurfaceGrid internal::MakeGridOfSolid(const TriangleMesh& surface, const SolidBySurface& solid,

@@ -22,6 +22,9 @@ enum class HoleRepair : std::uint8_t {
   kClose,  ///< close each hole with a cap, triangles from its border to its middle, that does not align the field
 };
 
+/// "none" or "close". \throw std::invalid_argument naming them for another name.
+HoleRepair HoleRepairOf(const std::string& name);
+
 struct GridOptions {
   /// Of the finest cells.
   double size = 0;
