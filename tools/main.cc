@@ -15,6 +15,7 @@
 #include "compare_command.h"
 #include "field_command.h"
 #include "info_command.h"
+#include "large_pages.h"
 #include "map_command.h"
 #include "octupole/version.h"
 #include "sample_command.h"
@@ -84,6 +85,7 @@ void Run(int argc, char** argv, CLI::App* app) {
 
 // NOLINTNEXTLINE(bugprone-exception-escape): only where the standard streams or the handlers themselves fail
 int main(int argc, char** argv) {
+  octupole::UseLargePages(argc, argv);
   CLI::App app("Frame fields on tetrahedral meshes and on surfaces.", "octupole");
   try {
     octupole::Run(argc, argv, &app);
