@@ -25,7 +25,7 @@ TriangleMesh Box(const Vector3d& size) { return BoundarySurface(MakeBoxMesh({1, 
 
 TriangleMesh Ball() { return BoundarySurface(MakeBallMesh(24)); }
 
-SurfaceGrid MakeGridOfSize(const TriangleMesh& surface, double size, int levels = 1) {
+SurfaceGrid GridOfSize(const TriangleMesh& surface, double size, int levels = 1) {
   GridOptions options;
   options.size = size;
   options.levels = levels;
@@ -41,7 +41,7 @@ double VolumeOf(const SurfaceGrid& grid) {
 }
 
 TEST(MakeGrid, CoversABoxWithHalfACellBeyondItsFaces) {
-  const SurfaceGrid grid = MakeGridOfSize(Box({1, 2, 3}), 0.25);
+  const SurfaceGrid grid = GridOfSize(Box({1, 2, 3}), 0.25);
   EXPECT_EQ(grid.points.size(), 6u * 10 * 14);
   EXPECT_EQ(grid.cells.size(), 5u * 9 * 13);
   EXPECT_EQ(grid.levels, std::vector<std::uint8_t>(grid.cells.size(), 0));
@@ -53,7 +53,7 @@ TEST(MakeGrid, CoversABoxWithHalfACellBeyondItsFaces) {
 
 TEST(MakeGrid, MeasuresTheDistanceToABall) {
   for (const int levels : {1, 3}) {
-    const SurfaceGrid grid = MakeGridOfSize(BoundarySurface(MakeBallMesh(48)), 0.05, levels);
+    const SurfaceGrid grid = GridOfSize(BoundarySurface(MakeBallMesh(48)), 0.05, levels);
     double deepest = 0;
     for (std::size_t v = 0; v < grid.points.size(); ++v) {
       const double exact = grid.points[v].norm() - 1;
@@ -70,7 +70,7 @@ TEST(MakeGrid, MeasuresTheDistanceToABall) {
 }
 
 TEST(MakeGrid, GradesTwoToOne) {
-  const SurfaceGrid grid = MakeGridOfSize(Ball(), 0.03, 4);
+  const SurfaceGrid grid = GridOfSize(Ball(), 0.03, 4);
   EXPECT_EQ(*std::max_element(grid.levels.begin(), grid.levels.end()), 3);
   // The levels of all cells that have a point of the finest lattice.
   std::map<std::array<long, 3>, std::set<int>> levels_at;
@@ -90,16 +90,16 @@ TEST(MakeGrid, GradesTwoToOne) {
 }
 
 TEST(MakeGrid, CoversTheSameSolidWithAnyLevels) {
-  const SurfaceGrid uniform = MakeGridOfSize(Ball(), 0.05);
+  const SurfaceGrid uniform = GridOfSize(Ball(), 0.05);
   for (const int levels : {2, 3, 4}) {
-    const SurfaceGrid grid = MakeGridOfSize(Ball(), 0.05, levels);
+    const SurfaceGrid grid = GridOfSize(Ball(), 0.05, levels);
     EXPECT_NEAR(VolumeOf(grid), VolumeOf(uniform), 1e-9);
     EXPECT_LT(grid.points.size(), uniform.points.size());
   }
 }
 
 TEST(MakeGrid, FindsHangingNodesInTheMiddle) {
-  const SurfaceGrid grid = MakeGridOfSize(Ball(), 0.04, 3);
+  const SurfaceGrid grid = GridOfSize(Ball(), 0.04, 3);
   EXPECT_FALSE(grid.hanging_nodes.empty());
   for (const auto& [node, ends] : grid.hanging_nodes) {
     EXPECT_NEAR((grid.points[node] - (grid.points[ends[0]] + grid.points[ends[1]]) / 2).norm(), 0, 1e-12);
@@ -110,7 +110,7 @@ TEST(MakeGrid, FindsHangingNodesInTheMiddle) {
 // The claim of the header for linear functions: to rounding, with any levels.
 TEST(MakeGrid, HasTheEnergyOfLinearFunctions) {
   for (const int levels : {1, 2, 4}) {
-    const SurfaceGrid grid = MakeGridOfSize(Ball(), 0.04, levels);
+    const SurfaceGrid grid = GridOfSize(Ball(), 0.04, levels);
     const double volume = VolumeOf(grid);
     for (const Vector3d& gradient : {Vector3d(1, 0, 0), Vector3d(0.3, -2, 0.7)}) {
       double energy = 0;
@@ -125,7 +125,7 @@ TEST(MakeGrid, HasTheEnergyOfLinearFunctions) {
 // And the other claim: forces cancel at inner nodes, those in the middle of a coarser cell's face included.
 TEST(MakeGrid, HasLinearFunctionsInBalance) {
   for (const int levels : {1, 2, 3, 5}) {
-    const SurfaceGrid grid = MakeGridOfSize(Ball(), 0.03, levels);
+    const SurfaceGrid grid = GridOfSize(Ball(), 0.03, levels);
     for (const Vector3d& gradient : {Vector3d(1, 0, 0), Vector3d(0.3, -2, 0.7)}) {
       std::vector<double> force(grid.points.size(), 0);
       for (const auto& [a, b, weight] : grid.graph.edges) {
@@ -145,7 +145,7 @@ TEST(MakeGrid, HasLinearFunctionsInBalance) {
 
 // Only what the surface runs through has to be fine.
 TEST(MakeGrid, IsCoarseInside) {
-  const SurfaceGrid uniform = MakeGridOfSize(Ball(), 0.02), graded = MakeGridOfSize(Ball(), 0.02, 5);
+  const SurfaceGrid uniform = GridOfSize(Ball(), 0.02), graded = GridOfSize(Ball(), 0.02, 5);
   EXPECT_LT(graded.points.size(), 0.25 * uniform.points.size());
   for (std::size_t i = 0; i < graded.cells.size(); ++i) {
     const double depth = 1 - (graded.points[graded.cells[i][0]].norm() + WidthOf(graded, i));
@@ -173,7 +173,7 @@ TEST(MakeGrid, IsFineAtFinePoints) {
 // On a field that turns smoothly, the energies with cells of one size and of several differ by the square of the angle
 // between neighbours: where the field turns half as fast, by a quarter.
 TEST(MakeGrid, HasTheEnergyOfASmoothField) {
-  const SurfaceGrid uniform = MakeGridOfSize(Ball(), 0.05, 1), graded = MakeGridOfSize(Ball(), 0.05, 3);
+  const SurfaceGrid uniform = GridOfSize(Ball(), 0.05, 1), graded = GridOfSize(Ball(), 0.05, 3);
   const auto energy_of = [](const SurfaceGrid& grid, double rate) {
     std::vector<Eigen::Matrix3d> frames;
     for (const Vector3d& p : grid.points) {
@@ -205,7 +205,7 @@ double LargestAngleToRadius(const SurfaceGrid& grid) {
 
 TEST(MakeGrid, AlignsNodesWithASmoothSurface) {
   const TriangleMesh sphere = BoundarySurface(MakeBallMesh(64));
-  const SurfaceGrid grid = MakeGridOfSize(sphere, 0.1);
+  const SurfaceGrid grid = GridOfSize(sphere, 0.1);
   EXPECT_EQ(grid.alignment.num_frames + grid.alignment.num_tangents + grid.alignment.num_free, 0u);
   EXPECT_EQ(grid.alignment.num_feature_edges, 0u);
   for (std::size_t v = 0; v < grid.points.size(); ++v) {
@@ -220,7 +220,7 @@ TEST(MakeGrid, PrescribesFramesAtRightAngles) {
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.4, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   TriangleMesh box = Box({1, 1, 1});
   for (Vector3d& p : box.points) p = turn * p;
-  const SurfaceGrid grid = MakeGridOfSize(box, 0.1);
+  const SurfaceGrid grid = GridOfSize(box, 0.1);
   EXPECT_EQ(grid.alignment.num_feature_edges, 12u);
   EXPECT_EQ(grid.alignment.num_free + grid.alignment.num_tangents, 0u);
   EXPECT_GT(grid.alignment.num_frames, 12u * 10);
@@ -242,7 +242,7 @@ TEST(MakeGrid, FollowsMarkedEdgesOnSmoothSurfaces) {
         box.points.begin());
   };
   box.feature_edges = {{find({0.25, 0.25, 0.5}), find({0.75, 0.5, 0.5})}};
-  const SurfaceGrid grid = MakeGridOfSize(box, 0.05);
+  const SurfaceGrid grid = GridOfSize(box, 0.05);
   EXPECT_TRUE(grid.alignment.has_marked_features);
   int num_on_line = 0;
   for (std::size_t v = 0; v < grid.points.size(); ++v) {
@@ -258,7 +258,7 @@ TEST(MakeGrid, FollowsMarkedEdgesOnSmoothSurfaces) {
 // Both sheets reach every node: they ask for the same.
 TEST(MakeGrid, AlignsPlatesThinnerThanACell) {
   for (const double thickness : {0.05, 0.02, 0.005}) {
-    const SurfaceGrid grid = MakeGridOfSize(Box({1, 1, thickness}), 0.05);
+    const SurfaceGrid grid = GridOfSize(Box({1, 1, thickness}), 0.05);
     EXPECT_GT(grid.alignment.num_normals, 0.8 * grid.points.size()) << thickness;
     EXPECT_EQ(grid.alignment.num_free, 0u) << thickness;
     for (std::size_t v = 0; v < grid.points.size(); ++v) {
