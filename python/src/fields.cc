@@ -473,8 +473,8 @@ void AddFields(py::module_* module) {
          const std::string& solver, std::optional<int> max_iterations, const py::object& constraints,
          const py::object& start, const py::object& callback) {
         return TetField{{Solve(*mesh,
-                               {degree, method, feature_angle, "aligned", follow_regions, weights, seed, starts,
-                                threads, solver, max_iterations, ConstraintsFrom(constraints), start},
+                               {degree, method, feature_angle, seed, starts, threads, solver, max_iterations, start,
+                                "aligned", weights, follow_regions, ConstraintsFrom(constraints)},
                                callback)},
                         mesh,
                         nullptr};
@@ -490,8 +490,8 @@ void AddFields(py::module_* module) {
          const py::object& start, const py::object& callback) {
         return SurfaceField{
             {Solve<TriangleMesh>(*mesh,
-                                 {degree, method, feature_angle, boundary, std::nullopt, weights, seed, starts, threads,
-                                  solver, max_iterations, ConstraintsFrom(constraints), start},
+                                 {degree, method, feature_angle, seed, starts, threads, solver, max_iterations, start,
+                                  boundary, weights, std::nullopt, ConstraintsFrom(constraints)},
                                  callback)},
             mesh};
       },
@@ -505,20 +505,7 @@ void AddFields(py::module_* module) {
          std::optional<int> max_iterations, const py::object& start, const py::object& callback) {
         const double unused_angle = FieldOptions<3>().feature_angle_deg;
         return Solve(GraphFrom(edges, weights, alignments),
-                     {degree,
-                      method,
-                      unused_angle,
-                      "aligned",
-                      std::nullopt,
-                      "uniform",
-                      seed,
-                      starts,
-                      threads,
-                      solver,
-                      max_iterations,
-                      {},
-                      start},
-                     callback);
+                     {degree, method, unused_angle, seed, starts, threads, solver, max_iterations, start}, callback);
       },
       py::arg("edges"), py::arg("weights"), py::arg("alignments"), py::kw_only(), py::arg("degree"), py::arg("method"),
       py::arg("seed"), py::arg("starts"), py::arg("threads"), py::arg("solver"), py::arg("max_iterations"),

@@ -31,18 +31,19 @@ struct SolveArguments {
   int degree;
   std::string method;
   double feature_angle;
-  std::string boundary;
-  /// Whether surfaces inside the mesh align the field; if nothing is said, the library decides.
-  std::optional<bool> follow_regions;
-  std::string weights;
   std::uint32_t seed;
   int starts;
   int threads;
   std::string solver;
   std::optional<int> max_iterations;
-  std::vector<Constraint> constraints;
+  // What only some of those who solve have, as it is for the others.
   /// None, a TetField, or an array of frames or of coefficients.
-  py::object start;
+  py::object start = py::none();
+  std::string boundary = "aligned";
+  std::string weights = "uniform";
+  /// Whether surfaces inside the mesh align the field; if nothing is said, the library decides.
+  std::optional<bool> follow_regions = std::nullopt;
+  std::vector<Constraint> constraints = {};
 };
 
 /// All of the arguments but the start. \throw std::invalid_argument for unknown names.

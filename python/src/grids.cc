@@ -249,20 +249,7 @@ void AddGrids(py::module_* module) {
          int threads, const std::string& solver, std::optional<int> max_iterations, const std::string& repair,
          const py::object& callback) {
         return Solve(surface, resolution, size, levels, repair,
-                     {degree,
-                      method,
-                      feature_angle,
-                      "aligned",
-                      std::nullopt,
-                      "uniform",
-                      seed,
-                      starts,
-                      threads,
-                      solver,
-                      max_iterations,
-                      {},
-                      py::none()},
-                     callback);
+                     {degree, method, feature_angle, seed, starts, threads, solver, max_iterations}, callback);
       },
       py::arg("surface"), py::kw_only(), py::arg("resolution"), py::arg("size"), py::arg("levels"), py::arg("degree"),
       py::arg("method"), py::arg("feature_angle"), py::arg("seed"), py::arg("starts"), py::arg("threads"),
