@@ -12,10 +12,12 @@
 #include <string>
 #include <utility>
 
+#include "octupole/maps/map_obstacles.h"
 #include "octupole/mesh/box_mesh.h"
 #include "octupole/mesh/mesh_topology.h"
 #include "octupole/mesh/tet_neighbours.h"
 #include "random_inputs.h"
+#include "rib_mesh.h"
 #include "test_files.h"
 
 namespace octupole {
@@ -246,18 +248,41 @@ TEST(BoundarySheets, LetTheSmallerSideOfAWedgeGo) {
   const double c = std::cos(M_PI / 6), s = std::sin(M_PI / 6);
   mesh.points = {{0, 0, 0}, {1, 0, 0}, {0.9 * c, 0.9 * s, 0}, {0, 0, 1}, {1, 0, 1}, {0.9 * c, 0.9 * s, 1}};
   mesh.tets = {{0, 1, 2, 5}, {0, 1, 5, 4}, {0, 4, 5, 3}};
-  const MapDomain domain = MakeMapDomain(mesh, ConstantFrames(mesh));
-  ASSERT_FALSE(domain.sheets.wedges.empty());
-  EXPECT_NEAR(domain.sheets.wedges[0].angle_deg, 30, 1e-9);
-  const auto& sheets = domain.sheets.sheets;
+  const MatchedFrames matched = MatchTets(mesh, Frames(mesh.tets.size(), Eigen::Matrix3d::Identity()));
+  const std::vector<std::array<bool, 4>> no_interface(mesh.tets.size());
+  const BoundarySheets sheets =
+      FindBoundarySheets(mesh, matched, FindEdgeRings(mesh, matched.neighbours), no_interface, {});
+  ASSERT_FALSE(sheets.wedges.empty());
+  EXPECT_NEAR(sheets.wedges[0].angle_deg, 30, 1e-9);
+  EXPECT_TRUE(sheets.flat_corners.empty()) << "as they are of the side that was let go";
   int num_released = 0;
-  for (const auto& sheet : sheets) {
+  for (const auto& sheet : sheets.sheets) {
     num_released += sheet.is_released;
     if (sheet.is_released) {
       EXPECT_NEAR(sheet.area, 0.9, 1e-12);
     }
   }
   EXPECT_EQ(num_released, 1);
+}
+
+// The two creases of the rib's side at its tip, one with the plate and one with the slope, run along one parameter.
+TEST(MapDomain, ReleasesTheTipOfARib) {
+  const TetMesh mesh = MakeRibMesh(0.8);
+  const MapDomain domain = MakeMapDomain(mesh, ConstantFrames(mesh));
+  EXPECT_TRUE(domain.collapsed.empty());
+  std::set<int> tip;
+  for (int v = 0; v < static_cast<int>(mesh.points.size()); ++v) {
+    const Eigen::Vector3d& p = mesh.points[v];
+    if (p.x() >= 2 && p.x() <= 4 && p.y() == 2 && std::abs(p.z() - 0.8) < 1e-12) tip.insert(v);
+  }
+  ASSERT_EQ(tip.size(), 3u);
+  EXPECT_EQ(domain.released_vertices, tip);
+  EXPECT_TRUE(domain.sheets.flat_corners.empty()) << "as their faces are no sheet any more";
+  const auto obstacles = FindObstacles(domain, {});
+  const auto is_release = [](const MapObstacle& obstacle) { return obstacle.kind == ObstacleKind::kReleased; };
+  ASSERT_EQ(std::count_if(obstacles.begin(), obstacles.end(), is_release), 1);
+  const MapObstacle& release = *std::find_if(obstacles.begin(), obstacles.end(), is_release);
+  EXPECT_LT((release.place - Eigen::Vector3d(3, 2, 0.8)).norm(), 1.5);
 }
 
 TEST(MapDomain, NamesBadInput) {

@@ -11,6 +11,7 @@
 #include "octupole/maps/map_obstacles.h"
 #include "octupole/mesh/box_mesh.h"
 #include "octupole/solvers/field_solver.h"
+#include "rib_mesh.h"
 #include "test_files.h"
 
 namespace octupole {
@@ -76,6 +77,14 @@ TEST(SeamlessMap, OfACylinderHasFourCurvesOfValenceThree) {
   const MapQuality quality = MeasureMap(map.domain.mesh, map.parameters, map.size);
   EXPECT_LE(quality.flipped, map.flipped.size());
   EXPECT_LT(quality.flipped_volume, 0.005);
+}
+
+// A rib of 45 degrees, whose slope is of one sheet with the plate: no tetrahedron at its tip is turned over.
+TEST(SeamlessMap, OfARibIsFlatNowhere) {
+  const TetMesh mesh = MakeRibMesh(1);
+  const SeamlessMap map = SolveSeamlessMap(mesh, SolveField<3>(mesh).frames);
+  EXPECT_EQ(map.termination, ceres::CONVERGENCE);
+  EXPECT_TRUE(map.flipped.empty());
 }
 
 // Two boxes of 3 x 2 x 2 with cells of 0.43: 7 x 5 x 5 hexahedra each.

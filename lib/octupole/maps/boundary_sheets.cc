@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <utility>
 
 #include "octupole/maps/edge_turns.h"
@@ -84,6 +86,139 @@ struct Meeting {
   std::array<int, 2> faces;
 };
 
+// A face as seen from one of its tetrahedra; an interface has two sides.
+struct Side {
+  int tet;
+  int corner;
+  int face;
+  // What points out of the tetrahedron.
+  int axis;
+  int sign;
+};
+
+enum class MeetingKind { kSheet, kCrease, kOpposite };
+
+// From one side of faces to the next across an edge, around the vertex `pivot` of both.
+struct Passage {
+  Side from, to;
+  int other;  // the end of the edge that is not the pivot
+  OctahedralRotation turn;
+  double angle_deg;
+  MeetingKind kind;
+
+  // An axis of a parameter and its sign, in the frame of `from`, as it is in that of `to`.
+  std::pair<int, int> Carry(const std::pair<int, int>& axis) const {
+    return {turn.axis[axis.first], turn.sign[axis.first] * axis.second};
+  }
+
+  Passage Reversed() const { return {to, from, other, turn.Inverse(), angle_deg, kind}; }
+};
+
+// Finds the corners of sheets that have angle 0 in every map.
+class FlatCornerFinder {
+ public:
+  FlatCornerFinder(const TetMesh& mesh, const std::vector<Face>& faces) : mesh_(mesh), faces_(faces) {}
+
+  void Add(const std::array<int, 2>& edge, Passage passage) {
+    if (faces_[passage.from.face].is_released || faces_[passage.to.face].is_released) return;
+    // Around its other end one goes back.
+    passage.other = edge[1];
+    AddAround(edge[0], passage);
+    passage.other = edge[0];
+    AddAround(edge[1], passage.Reversed());
+  }
+
+  std::vector<BoundarySheets::FlatCorner> Find() const {
+    std::map<int, BoundarySheets::FlatCorner> corners;
+    for (const auto& [key, passage] : passages_) {
+      if (!IsSharpCrease(passage)) continue;
+      const int v = key.first;
+      if (const auto angle = FlatAngleFrom(v, passage)) corners[v] = {v, *angle, {}};
+    }
+    std::vector<BoundarySheets::FlatCorner> result;
+    for (auto& [v, corner] : corners) {
+      corner.bend = TraceBend(corner);
+      result.push_back(std::move(corner));
+    }
+    return result;
+  }
+
+ private:
+  // The vertex and the side that one comes from.
+  using Key = std::pair<int, std::pair<int, int>>;
+
+  void AddAround(int v, const Passage& passage) {
+    passages_.emplace(Key(v, {passage.from.tet, passage.from.corner}), passage);
+  }
+
+  // On a smooth surface creases zigzag along edges, as it happens, and their corners mean nothing.
+  static bool IsSharpCrease(const Passage& passage) {
+    constexpr double kHalfRightAngleDeg = 45;
+    return passage.kind == MeetingKind::kCrease && std::abs(passage.angle_deg - 180) >= kHalfRightAngleDeg;
+  }
+
+  const Passage* Next(int v, const Side& side) const {
+    const auto place = passages_.find(Key(v, {side.tet, side.corner}));
+    return place == passages_.end() ? nullptr : &place->second;
+  }
+
+  // The axis along which one leaves the sheet at crease.to across the crease, in the frame there: that which points out
+  // of the sheet beyond, or, at a concave crease, into it.
+  static std::pair<int, int> Conormal(const Passage& crease) {
+    return crease.Carry({crease.from.axis, crease.angle_deg > 180 ? -crease.from.sign : crease.from.sign});
+  }
+
+  double CornerAngleDeg(int v, const Side& side) const {
+    std::array<Eigen::Vector3d, 2> along;
+    int count = 0;
+    for (int k = 0; k < 4; ++k) {
+      const int w = mesh_.tets[side.tet][k];
+      if (k != side.corner && w != v) along[count++] = mesh_.points[w] - mesh_.points[v];
+    }
+    return std::atan2(along[0].cross(along[1]).norm(), along[0].dot(along[1])) * kDegreesPerRadian;
+  }
+
+  // The angle of the corner of a sheet that begins with the crease, if it is less than a right one and the conormals of
+  // its two creases are opposite.
+  std::optional<double> FlatAngleFrom(int v, const Passage& crease) const {
+    constexpr double kRightAngleDeg = 90;
+    std::pair<int, int> conormal = Conormal(crease);
+    double angle = 0;
+    for (Side side = crease.to;;) {
+      angle += CornerAngleDeg(v, side);
+      const Passage* next = Next(v, side);
+      if (angle >= kRightAngleDeg || next == nullptr || next->kind == MeetingKind::kOpposite) return std::nullopt;
+      if (next->kind == MeetingKind::kCrease) {
+        if (!IsSharpCrease(*next)) return std::nullopt;
+        const std::pair<int, int> last = Conormal(next->Reversed());
+        if (last.first == conormal.first && last.second == -conormal.second) return angle;
+        return std::nullopt;
+      }
+      conormal = next->Carry(conormal);
+      side = next->to;
+    }
+  }
+
+  // Along edges inside of sheets at which these bend by at least half of the corner's angle.
+  std::vector<int> TraceBend(const BoundarySheets::FlatCorner& corner) const {
+    std::vector<int> bend = {corner.vertex};
+    for (std::size_t i = 0; i < bend.size(); ++i) {
+      const int v = bend[i];
+      for (auto p = passages_.lower_bound(Key(v, {-1, -1})); p != passages_.end() && p->first.first == v; ++p) {
+        const Passage& passage = p->second;
+        const bool bends = std::abs(passage.angle_deg - 180) >= corner.angle_deg / 2;
+        if (passage.kind != MeetingKind::kSheet || !bends) continue;
+        if (std::find(bend.begin(), bend.end(), passage.other) == bend.end()) bend.push_back(passage.other);
+      }
+    }
+    return bend;
+  }
+
+  const TetMesh& mesh_;
+  const std::vector<Face>& faces_;
+  std::map<Key, Passage> passages_;
+};
+
 }  // namespace
 
 BoundarySheets FindBoundarySheets(const TetMesh& mesh, const MatchedFrames& matched, const EdgeRings& rings,
@@ -116,7 +251,16 @@ BoundarySheets FindBoundarySheets(const TetMesh& mesh, const MatchedFrames& matc
     return {g.axis[face.axis], -g.sign[face.axis] * face.sign};
   };
   internal::UnionFind sheets(static_cast<int>(result.faces.size()));
+  const auto is_released = [&](int f) {
+    const Face& face = result.faces[f];
+    for (int k = 0; k < 4; ++k) {
+      if (k != face.corner && released_vertices.count(mesh.tets[face.tet][k]) > 0) return true;
+    }
+    return false;
+  };
+  for (int f = 0; f < static_cast<int>(result.faces.size()); ++f) result.faces[f].is_released = is_released(f);
   std::vector<Meeting> meetings;
+  std::vector<std::pair<std::size_t, Passage>> passages;
   for (std::size_t r = 0; r < rings.size(); ++r) {
     const std::vector<Sector> sectors = SectorsOf(rings, r, is_face);
     for (std::size_t i = 0; i < sectors.size(); ++i) {
@@ -126,18 +270,26 @@ BoundarySheets FindBoundarySheets(const TetMesh& mesh, const MatchedFrames& matc
         sector.steps.insert(sector.steps.end(), sectors[j].steps.begin(), sectors[j].steps.end());
         const EdgeRings::Step &first = sector.first(), &last = sector.last();
         const int f = face_of[first.tet][first.in], g = face_of[last.tet][last.out];
-        if (f == g) continue;
+        if (f == g || result.faces[f].is_released || result.faces[g].is_released) continue;
         const auto [axis, sign] = outward(first.tet, first.in);
         const auto [other_axis, other_sign] = outward(last.tet, last.out);
         // The first face's axis e_k becomes turn^T e_k in the last frame.
         const OctahedralRotation turn = sector.Turn(matched);
-        if (turn.axis[axis] != other_axis) {
-          if (j == i) result.creases.push_back(rings.vertices[r]);
-        } else if (turn.sign[axis] * sign == other_sign) {
-          sheets.Unite(f, g);
-        } else if (const double angle = sector.AngleDeg(mesh); j == i && angle < 180) {
-          meetings.push_back({rings.vertices[r], angle, {f, g}});
+        MeetingKind kind = MeetingKind::kCrease;
+        if (turn.axis[axis] == other_axis) {
+          kind = turn.sign[axis] * sign == other_sign ? MeetingKind::kSheet : MeetingKind::kOpposite;
         }
+        if (kind == MeetingKind::kSheet) sheets.Unite(f, g);
+        if (j != i) continue;
+        const double angle = sector.AngleDeg(mesh);
+        if (kind == MeetingKind::kCrease) result.creases.push_back(rings.vertices[r]);
+        if (kind == MeetingKind::kOpposite && angle < 180) meetings.push_back({rings.vertices[r], angle, {f, g}});
+        passages.emplace_back(r, Passage{{first.tet, first.in, f, axis, sign},
+                                         {last.tet, last.out, g, other_axis, other_sign},
+                                         -1,
+                                         turn,
+                                         angle,
+                                         kind});
       }
     }
   }
@@ -163,11 +315,11 @@ BoundarySheets FindBoundarySheets(const TetMesh& mesh, const MatchedFrames& matc
     result.wedges.push_back({meeting.vertices, meeting.angle_deg, released});
   }
   for (Face& face : result.faces) {
-    face.is_released = result.sheets[face.sheet].is_released;
-    for (int k = 0; k < 4; ++k) {
-      face.is_released = face.is_released || (k != face.corner && released_vertices.count(mesh.tets[face.tet][k]) > 0);
-    }
+    face.is_released = face.is_released || result.sheets[face.sheet].is_released;
   }
+  FlatCornerFinder corners(mesh, result.faces);
+  for (const auto& [ring, passage] : passages) corners.Add(rings.vertices[ring], passage);
+  result.flat_corners = corners.Find();
   return result;
 }
 

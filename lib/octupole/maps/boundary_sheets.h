@@ -38,16 +38,25 @@ struct BoundarySheets {
     double angle_deg;
     int released_sheet;
   };
+  /// A corner of less than a right angle in a sheet, whose two creases run along one parameter, so that it has angle 0
+  /// in the map, which squeezes the sheet there. Such is the tip of a rib whose slope is of one sheet with the plate.
+  struct FlatCorner {
+    int vertex;
+    double angle_deg;
+    /// From the vertex on along the bend where the sheet beyond its one crease goes on into that beyond the other.
+    std::vector<int> bend;
+  };
 
   std::vector<Face> faces;
   std::vector<Sheet> sheets;
   std::vector<Wedge> wedges;
-  /// Edges at which the outward axes of the two sides differ.
+  std::vector<FlatCorner> flat_corners;
+  /// Edges at which the outward axes of the two sides differ, neither of which is released.
   std::vector<std::array<int, 2>> creases;
 };
 
 /// Finds the sheets, and releases at each wedge, from the sharpest to the bluntest, the sheet of the smaller area,
-/// unless one of the two is released already.
+/// unless one of the two is released already. Faces at released vertices are sheets of their own.
 /// \param mesh satisfies CheckTetMesh(), all its tetrahedra of positive volume.
 /// \param is_interface of the face opposite each corner, whether it is one inside; the same on both of its sides.
 /// \param released_vertices whose faces hold no parameter constant.

@@ -55,6 +55,14 @@ std::vector<std::array<bool, 4>> FindFaces(const TetMesh& mesh, std::vector<std:
   return found;
 }
 
+// Where the map would have an angle of 0, and along the bend from there.
+bool ReleaseFlatCorners(const BoundarySheets& sheets, FramedMesh* framed) {
+  for (const BoundarySheets::FlatCorner& corner : sheets.flat_corners) {
+    framed->released_vertices.insert(corner.bend.begin(), corner.bend.end());
+  }
+  return !sheets.flat_corners.empty();
+}
+
 void FindStructure(bool are_nodes_final, FramedMesh* framed, MapDomain* domain) {
   framed->matched.neighbours = TetNeighbours(framed->mesh);
   domain->rings = FindEdgeRings(framed->mesh, framed->matched.neighbours);
@@ -62,13 +70,22 @@ void FindStructure(bool are_nodes_final, FramedMesh* framed, MapDomain* domain) 
   if (StraightenSingularEdges(domain->rings, domain->singular_edges, framed)) {
     domain->singular_edges = FindSingularEdges(framed->mesh, framed->matched, domain->rings);
   }
-  domain->sheets =
-      FindBoundarySheets(framed->mesh, framed->matched, domain->rings, framed->is_interface, framed->released_vertices);
-  if (TakeCurvesToBoundary(domain->rings, domain->singular_edges, domain->sheets, are_nodes_final, framed)) {
-    domain->singular_edges = FindSingularEdges(framed->mesh, framed->matched, domain->rings);
+  const auto find_sheets = [&] {
     domain->sheets = FindBoundarySheets(framed->mesh, framed->matched, domain->rings, framed->is_interface,
                                         framed->released_vertices);
+  };
+  find_sheets();
+  if (TakeCurvesToBoundary(domain->rings, domain->singular_edges, domain->sheets, are_nodes_final, framed)) {
+    domain->singular_edges = FindSingularEdges(framed->mesh, framed->matched, domain->rings);
+    find_sheets();
   }
+  if (ReleaseFlatCorners(domain->sheets, framed)) find_sheets();
+  // No feature holds parameters at a released vertex, either.
+  const auto is_released = [&](int v) { return framed->released_vertices.count(v) > 0; };
+  auto& features = framed->mesh.feature_edges;
+  features.erase(std::remove_if(features.begin(), features.end(),
+                                [&](const auto& edge) { return is_released(edge[0]) || is_released(edge[1]); }),
+                 features.end());
 }
 
 // The cut and the unknowns, and what is flat in spite of them.
