@@ -12,6 +12,7 @@
 
 #include "octupole/frames/octahedral_group.h"
 #include "octupole/mesh/mesh_topology.h"
+#include "octupole/mesh/tet_neighbours.h"
 #include "octupole/solvers/internal/map_energy.h"
 #include "octupole/solvers/internal/map_system.h"
 #include "octupole/solvers/internal/untangler.h"
@@ -94,6 +95,78 @@ std::vector<Eigen::Matrix3d> StartJacobians(const TetMesh& mesh, const MapDomain
   return jacobians;
 }
 
+// The parameters of a map at the nodes of a finer domain of it (RefineMapDomain), whose axes and cut are others: they
+// go on from tetrahedron to tetrahedron across faces that are not cut.
+std::vector<double> NodeParameters(const MapDomain& domain, const CornerParameters& parameters,
+                                   const MapDomain& finer) {
+  std::vector<double> result(3 * static_cast<std::size_t>(finer.cut.num_nodes), 0);
+  const auto at = [&](int node) { return Eigen::Map<Eigen::Vector3d>(&result[3 * static_cast<std::size_t>(node)]); };
+  std::vector<bool> is_reached(finer.mesh.tets.size(), false);
+  std::vector<int> queue;
+  // With a corner whose parameters are known, if there is one.
+  const auto reach = [&](int t, int known) {
+    is_reached[t] = true;
+    queue.push_back(t);
+    const int parent = finer.parents[t];
+    const std::array<int, 4>& whole = domain.mesh.tets[parent];
+    const Eigen::Vector3d& origin = domain.mesh.points[whole[0]];
+    Eigen::Matrix3d edges, images;
+    for (int i = 0; i < 3; ++i) {
+      edges.col(i) = domain.mesh.points[whole[i + 1]] - origin;
+      images.col(i) = parameters[parent][i + 1] - parameters[parent][0];
+    }
+    const Eigen::Matrix3d renamed =
+        MatchFrames(domain.combed.frames[parent], finer.combed.frames[t]).matrix().transpose() * images *
+        edges.inverse();
+    const auto image = [&](int i) -> Eigen::Vector3d {
+      return renamed * (finer.mesh.points[finer.mesh.tets[t][i]] - origin);
+    };
+    const Eigen::Vector3d shift =
+        known < 0 ? Eigen::Vector3d::Zero() : Eigen::Vector3d(at(finer.cut.nodes[t][known]) - image(known));
+    for (int i = 0; i < 4; ++i) at(finer.cut.nodes[t][i]) = image(i) + shift;
+  };
+  for (int root = 0; root < static_cast<int>(is_reached.size()); ++root) {
+    if (is_reached[root]) continue;
+    std::size_t next = queue.size();
+    for (reach(root, -1); next < queue.size(); ++next) {
+      const int t = queue[next];
+      for (int i = 0; i < 4; ++i) {
+        const int s = finer.combed.neighbours[t][i];
+        if (s < 0 || is_reached[s] || !finer.combed.is_in_tree[t][i]) continue;
+        reach(s, CornerOf(finer.mesh.tets[s], finer.mesh.tets[t][(i + 1) % 4]));
+      }
+    }
+  }
+  return result;
+}
+
+// The unknowns of parameters at nodes, one by one from rows in which it is the only one left; what no row tells is 0.
+Vector FindUnknowns(const MapUnknowns& unknowns, const std::vector<double>& parameters) {
+  Vector y(unknowns.num_unknowns, 0);
+  std::vector<bool> is_known(y.size(), false);
+  for (bool has_changed = true; has_changed;) {
+    has_changed = false;
+    for (std::size_t row = 0; row < parameters.size(); ++row) {
+      double rest = parameters[row];
+      const MapUnknowns::Term* open = nullptr;
+      int num_open = 0;
+      for (std::size_t i = unknowns.begin[row]; i < unknowns.begin[row + 1]; ++i) {
+        const MapUnknowns::Term& term = unknowns.terms[i];
+        if (is_known[term.unknown]) {
+          rest -= term.factor * y[term.unknown];
+        } else {
+          open = &term;
+          ++num_open;
+        }
+      }
+      if (num_open != 1) continue;
+      y[open->unknown] = rest / open->factor;
+      is_known[open->unknown] = has_changed = true;
+    }
+  }
+  return y;
+}
+
 // The least squares fit of the targets in the unknowns of the system, from x.
 void FitFrames(double tolerance, MapEnergy* energy, Vector* x) {
   constexpr int kMaxIterations = 5000;
@@ -116,6 +189,8 @@ CornerParameters AtCorners(const MapDomain& domain, const Vector& y) {
   return parameters;
 }
 
+constexpr double kFitTolerance = 1e-5;
+
 // A map on its way.
 class MapSolver {
  public:
@@ -137,25 +212,27 @@ class MapSolver {
   int num_iterations() const { return num_iterations_; }
   int num_rounded() const { return num_rounded_; }
 
-  // What Fit draws the Jacobians to, instead of the frames.
+  // What fits draw the Jacobians to, instead of the frames.
   void SetTargets(std::vector<Eigen::Matrix3d> jacobians) {
     targets_ = std::move(jacobians);
     whole_energy_.SetTargets(targets_);
   }
 
+  void Begin(Vector y) { y_ = std::move(y); }
+
+  // All that is free.
   void Fit(double tolerance) {
     if (std::find(is_held_.begin(), is_held_.end(), true) == is_held_.end()) {
       FitFrames(tolerance, &whole_energy_, &y_);
       return;
     }
-    std::vector<bool> is_free = is_held_;
-    is_free.flip();
-    const MapSystem system = MakeMapSystem(domain_, y_, is_free);
-    MapEnergy energy(domain_, system, size_, &workers_);
-    if (!targets_.empty()) energy.SetTargets(targets_);
-    Vector x = system.Part(y_);
-    FitFrames(tolerance, &energy, &x);
-    system.PutPart(x, &y_);
+    FitPart(IsFree(), tolerance);
+  }
+
+  // Only what is around the tetrahedra.
+  void FitAround(const std::vector<int>& tets, double tolerance) {
+    constexpr int kNumRings = 12;
+    FitPart(IsFreeAround(tets, kNumRings), tolerance);
   }
 
   // Those that are turned over or flat, in ascending order.
@@ -176,10 +253,11 @@ class MapSolver {
     return open;
   }
 
-  // In neighbourhoods of what is turned over, larger and larger; then, if it is to be, everywhere and from the
-  // beginning. The best of these remains.
+  // In neighbourhoods of what is turned over, larger and larger; then, if it is to be and not too much, everywhere and
+  // from the beginning. The best of these remains.
   ceres::TerminationType Unfold(bool everywhere) {
     constexpr int kEverywhere = -1;
+    constexpr std::size_t kMaxEverywhere = 50000;
     const int last_iteration = num_iterations_ + options_.max_iterations;
     const Vector start = y_;
     Vector best = y_;
@@ -187,17 +265,12 @@ class MapSolver {
     for (const int num_rings : {3, 6, 12, kEverywhere}) {
       const std::vector<int> open = FindOpen();
       if (open.empty()) return ceres::CONVERGENCE;
-      std::vector<bool> is_free = is_held_;
-      is_free.flip();
-      if (num_rings != kEverywhere) {
-        const std::vector<bool> is_near = internal::FindUnknownsAround(domain_, open, num_rings);
-        for (std::size_t j = 0; j < is_free.size(); ++j) is_free[j] = is_free[j] && is_near[j];
-      } else if (!everywhere) {
-        break;
-      } else {
+      if (num_rings == kEverywhere) {
+        if (!everywhere || y_.size() > kMaxEverywhere) break;
         y_ = start;
       }
-      const MapSystem system = MakeMapSystem(domain_, y_, is_free);
+      const MapSystem system =
+          MakeMapSystem(domain_, y_, num_rings == kEverywhere ? IsFree() : IsFreeAround(open, num_rings));
       MapEnergy energy(domain_, system, size_, &workers_);
       Vector x = system.Part(y_);
       const int max_iterations = num_rings == kEverywhere ? 60 : 25;
@@ -215,6 +288,18 @@ class MapSolver {
     }
     y_ = best;
     return FindOpen().empty() ? ceres::CONVERGENCE : ceres::NO_CONVERGENCE;
+  }
+
+  // Also from the fit around what is still turned over then; the better of the two remains.
+  ceres::TerminationType UnfoldTwice() {
+    const ceres::TerminationType termination = Unfold(false);
+    if (termination != ceres::NO_CONVERGENCE) return termination;
+    const Vector first = y_;
+    const std::vector<int> open = FindOpen();
+    FitAround(open, kFitTolerance);
+    const ceres::TerminationType second = Unfold(false);
+    if (FindOpen().size() >= open.size()) y_ = first;
+    return second;
   }
 
   // Rounds the unknowns that must be whole, the surest first, a twelfth of those open at a time and all that are nearly
@@ -263,6 +348,27 @@ class MapSolver {
   }
 
  private:
+  std::vector<bool> IsFree() const {
+    std::vector<bool> is_free = is_held_;
+    is_free.flip();
+    return is_free;
+  }
+
+  std::vector<bool> IsFreeAround(const std::vector<int>& tets, int num_rings) const {
+    std::vector<bool> is_free = internal::FindUnknownsAround(domain_, tets, num_rings);
+    for (std::size_t j = 0; j < is_free.size(); ++j) is_free[j] = is_free[j] && !is_held_[j];
+    return is_free;
+  }
+
+  void FitPart(const std::vector<bool>& is_free, double tolerance) {
+    const MapSystem system = MakeMapSystem(domain_, y_, is_free);
+    MapEnergy energy(domain_, system, size_, &workers_);
+    if (!targets_.empty()) energy.SetTargets(targets_);
+    Vector x = system.Part(y_);
+    FitFrames(tolerance, &energy, &x);
+    system.PutPart(x, &y_);
+  }
+
   template <typename Rounding>
   void Hold(const std::vector<int>& batch, const Rounding& rounding) {
     for (const int j : batch) {
@@ -315,21 +421,30 @@ SeamlessMap SolveSeamlessMap(const TetMesh& mesh, const std::vector<Eigen::Matri
   map.size = options.size > 0 ? options.size : 2 * MeanEdgeLength(mesh);
   map.setup_seconds = SecondsSince(start);
 
-  std::vector<Eigen::Matrix3d> targets;
-  if (options.start) targets = StartJacobians(mesh, map.domain, *options.start);
+  Vector begin;
+  std::size_t num_open = 0;
   for (int round = 0;; ++round) {
     const Clock::time_point ready = Clock::now();
     MapSolver solver(options, map.domain, map.size, map.num_iterations, start);
-    if (!targets.empty()) solver.SetTargets(std::move(targets));
-    solver.Fit(1e-5);
-    if (round == 0) map.flipped_before = solver.FindFlipped();
+    if (round == 0) {
+      if (options.start) solver.SetTargets(StartJacobians(mesh, map.domain, *options.start));
+      solver.Fit(kFitTolerance);
+      map.flipped_before = solver.FindFlipped();
+    } else {
+      solver.Begin(std::move(begin));
+    }
     map.linear_seconds += SecondsSince(ready);
 
     const Clock::time_point fitted = Clock::now();
-    map.termination = solver.Unfold(round == 0);
+    map.termination = round == 0 ? solver.Unfold(true) : solver.UnfoldTwice();
     // What no step has turned back may need more vertices to move.
     constexpr int kMaxRounds = 4;
-    const bool is_last = map.termination != ceres::NO_CONVERGENCE || round == kMaxRounds || options.max_iterations == 0;
+    constexpr std::size_t kFew = 20;
+    const std::vector<int> open = solver.FindOpen();
+    const bool has_helped = round == 0 || open.size() <= kFew || 2 * open.size() <= num_open;
+    const bool is_last =
+        map.termination != ceres::NO_CONVERGENCE || round == kMaxRounds || !has_helped || options.max_iterations == 0;
+    num_open = open.size();
     if (is_last && options.integer) {
       map.termination = solver.Round();
       map.num_rounded = solver.num_rounded();
@@ -341,8 +456,8 @@ SeamlessMap SolveSeamlessMap(const TetMesh& mesh, const std::vector<Eigen::Matri
       map.foldover_seconds += SecondsSince(fitted);
       return map;
     }
-    MapDomain finer = RefineMapDomain(map.domain, solver.FindOpen());
-    targets = StartJacobians(map.domain.mesh, finer, {map.domain.mesh, map.parameters});
+    MapDomain finer = RefineMapDomain(map.domain, open);
+    begin = FindUnknowns(finer.unknowns, NodeParameters(map.domain, map.parameters, finer));
     for (int& parent : finer.parents) parent = map.domain.parents[parent];
     map.domain = std::move(finer);
     map.foldover_seconds += SecondsSince(fitted);
