@@ -12,9 +12,9 @@
 
 #include "octupole/frames/octahedral_group.h"
 #include "octupole/mesh/mesh_topology.h"
-#include "octupole/mesh/tet_neighbours.h"
 #include "octupole/solvers/internal/map_energy.h"
 #include "octupole/solvers/internal/map_system.h"
+#include "octupole/solvers/internal/map_transfer.h"
 #include "octupole/solvers/internal/untangler.h"
 #include "octupole/solvers/workers.h"
 
@@ -93,78 +93,6 @@ std::vector<Eigen::Matrix3d> StartJacobians(const TetMesh& mesh, const MapDomain
   const double scale = square > 0 ? fit / square : 0;
   for (Eigen::Matrix3d& jacobian : jacobians) jacobian *= scale;
   return jacobians;
-}
-
-// The parameters of a map at the nodes of a finer domain of it (RefineMapDomain), whose axes and cut are others: they
-// go on from tetrahedron to tetrahedron across faces that are not cut.
-std::vector<double> NodeParameters(const MapDomain& domain, const CornerParameters& parameters,
-                                   const MapDomain& finer) {
-  std::vector<double> result(3 * static_cast<std::size_t>(finer.cut.num_nodes), 0);
-  const auto at = [&](int node) { return Eigen::Map<Eigen::Vector3d>(&result[3 * static_cast<std::size_t>(node)]); };
-  std::vector<bool> is_reached(finer.mesh.tets.size(), false);
-  std::vector<int> queue;
-  // With a corner whose parameters are known, if there is one.
-  const auto reach = [&](int t, int known) {
-    is_reached[t] = true;
-    queue.push_back(t);
-    const int parent = finer.parents[t];
-    const std::array<int, 4>& whole = domain.mesh.tets[parent];
-    const Eigen::Vector3d& origin = domain.mesh.points[whole[0]];
-    Eigen::Matrix3d edges, images;
-    for (int i = 0; i < 3; ++i) {
-      edges.col(i) = domain.mesh.points[whole[i + 1]] - origin;
-      images.col(i) = parameters[parent][i + 1] - parameters[parent][0];
-    }
-    const Eigen::Matrix3d renamed =
-        MatchFrames(domain.combed.frames[parent], finer.combed.frames[t]).matrix().transpose() * images *
-        edges.inverse();
-    const auto image = [&](int i) -> Eigen::Vector3d {
-      return renamed * (finer.mesh.points[finer.mesh.tets[t][i]] - origin);
-    };
-    const Eigen::Vector3d shift =
-        known < 0 ? Eigen::Vector3d::Zero() : Eigen::Vector3d(at(finer.cut.nodes[t][known]) - image(known));
-    for (int i = 0; i < 4; ++i) at(finer.cut.nodes[t][i]) = image(i) + shift;
-  };
-  for (int root = 0; root < static_cast<int>(is_reached.size()); ++root) {
-    if (is_reached[root]) continue;
-    std::size_t next = queue.size();
-    for (reach(root, -1); next < queue.size(); ++next) {
-      const int t = queue[next];
-      for (int i = 0; i < 4; ++i) {
-        const int s = finer.combed.neighbours[t][i];
-        if (s < 0 || is_reached[s] || !finer.combed.is_in_tree[t][i]) continue;
-        reach(s, CornerOf(finer.mesh.tets[s], finer.mesh.tets[t][(i + 1) % 4]));
-      }
-    }
-  }
-  return result;
-}
-
-// The unknowns of parameters at nodes, one by one from rows in which it is the only one left; what no row tells is 0.
-Vector FindUnknowns(const MapUnknowns& unknowns, const std::vector<double>& parameters) {
-  Vector y(unknowns.num_unknowns, 0);
-  std::vector<bool> is_known(y.size(), false);
-  for (bool has_changed = true; has_changed;) {
-    has_changed = false;
-    for (std::size_t row = 0; row < parameters.size(); ++row) {
-      double rest = parameters[row];
-      const MapUnknowns::Term* open = nullptr;
-      int num_open = 0;
-      for (std::size_t i = unknowns.begin[row]; i < unknowns.begin[row + 1]; ++i) {
-        const MapUnknowns::Term& term = unknowns.terms[i];
-        if (is_known[term.unknown]) {
-          rest -= term.factor * y[term.unknown];
-        } else {
-          open = &term;
-          ++num_open;
-        }
-      }
-      if (num_open != 1) continue;
-      y[open->unknown] = rest / open->factor;
-      is_known[open->unknown] = has_changed = true;
-    }
-  }
-  return y;
 }
 
 // The least squares fit of the targets in the unknowns of the system, from x.
@@ -253,6 +181,14 @@ class MapSolver {
     return open;
   }
 
+  // Six times that of tetrahedra.
+  double VolumeOf(const std::vector<int>& tets) const {
+    const std::vector<double> volumes = SixfoldVolumes(domain_.mesh);
+    double sum = 0;
+    for (const int t : tets) sum += std::abs(volumes[t]);
+    return sum;
+  }
+
   // In neighbourhoods of what is turned over, larger and larger; then, if it is to be and not too much, everywhere and
   // from the beginning. The best of these remains.
   ceres::TerminationType Unfold(bool everywhere) {
@@ -290,7 +226,7 @@ class MapSolver {
     return FindOpen().empty() ? ceres::CONVERGENCE : ceres::NO_CONVERGENCE;
   }
 
-  // Also from the fit around what is still turned over then; the better of the two remains.
+  // Also from the fit around what is still turned over then; of the two, that remains of which it is less volume.
   ceres::TerminationType UnfoldTwice() {
     const ceres::TerminationType termination = Unfold(false);
     if (termination != ceres::NO_CONVERGENCE) return termination;
@@ -298,7 +234,7 @@ class MapSolver {
     const std::vector<int> open = FindOpen();
     FitAround(open, kFitTolerance);
     const ceres::TerminationType second = Unfold(false);
-    if (FindOpen().size() >= open.size()) y_ = first;
+    if (VolumeOf(FindOpen()) >= VolumeOf(open)) y_ = first;
     return second;
   }
 
@@ -422,7 +358,7 @@ SeamlessMap SolveSeamlessMap(const TetMesh& mesh, const std::vector<Eigen::Matri
   map.setup_seconds = SecondsSince(start);
 
   Vector begin;
-  std::size_t num_open = 0;
+  double open_volume = 0;
   for (int round = 0;; ++round) {
     const Clock::time_point ready = Clock::now();
     MapSolver solver(options, map.domain, map.size, map.num_iterations, start);
@@ -441,10 +377,11 @@ SeamlessMap SolveSeamlessMap(const TetMesh& mesh, const std::vector<Eigen::Matri
     constexpr int kMaxRounds = 4;
     constexpr std::size_t kFew = 20;
     const std::vector<int> open = solver.FindOpen();
-    const bool has_helped = round == 0 || open.size() <= kFew || 2 * open.size() <= num_open;
+    const double volume = solver.VolumeOf(open);
+    const bool has_helped = round == 0 || open.size() <= kFew || 2 * volume <= open_volume;
     const bool is_last =
         map.termination != ceres::NO_CONVERGENCE || round == kMaxRounds || !has_helped || options.max_iterations == 0;
-    num_open = open.size();
+    open_volume = volume;
     if (is_last && options.integer) {
       map.termination = solver.Round();
       map.num_rounded = solver.num_rounded();
@@ -457,7 +394,7 @@ SeamlessMap SolveSeamlessMap(const TetMesh& mesh, const std::vector<Eigen::Matri
       return map;
     }
     MapDomain finer = RefineMapDomain(map.domain, open);
-    begin = FindUnknowns(finer.unknowns, NodeParameters(map.domain, map.parameters, finer));
+    begin = internal::TransferMap(map.domain, map.parameters, finer);
     for (int& parent : finer.parents) parent = map.domain.parents[parent];
     map.domain = std::move(finer);
     map.foldover_seconds += SecondsSince(fitted);
