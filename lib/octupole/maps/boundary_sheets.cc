@@ -199,14 +199,17 @@ class FlatCornerFinder {
     }
   }
 
-  // Along edges inside of sheets at which these bend by at least half of the corner's angle.
+  // Along edges inside of sheets at which these bend by at least half of the corner's angle, and more than a surface
+  // that is rough.
   std::vector<int> TraceBend(const BoundarySheets::FlatCorner& corner) const {
+    constexpr double kLeastBendDeg = 20;
+    const double least = std::max(corner.angle_deg / 2, kLeastBendDeg);
     std::vector<int> bend = {corner.vertex};
     for (std::size_t i = 0; i < bend.size(); ++i) {
       const int v = bend[i];
       for (auto p = passages_.lower_bound(Key(v, {-1, -1})); p != passages_.end() && p->first.first == v; ++p) {
         const Passage& passage = p->second;
-        const bool bends = std::abs(passage.angle_deg - 180) >= corner.angle_deg / 2;
+        const bool bends = std::abs(passage.angle_deg - 180) >= least;
         if (passage.kind != MeetingKind::kSheet || !bends) continue;
         if (std::find(bend.begin(), bend.end(), passage.other) == bend.end()) bend.push_back(passage.other);
       }
