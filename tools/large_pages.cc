@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <string_view>
 #include <system_error>
 
 namespace octupole {
@@ -23,7 +24,9 @@ bool IsLargeFile(const char* argument) {
 
 void UseLargePages(int argc, char** argv) {
   constexpr const char* kTunables = "GLIBC_TUNABLES";
-  if (std::getenv(kTunables) != nullptr || std::none_of(argv + 1, argv + argc, IsLargeFile)) return;
+  // A grid may be large whatever the file is.
+  const bool is_grid = argc > 1 && std::string_view(argv[1]) == "grid";
+  if (std::getenv(kTunables) != nullptr || (!is_grid && std::none_of(argv + 1, argv + argc, IsLargeFile))) return;
   setenv(kTunables, "glibc.malloc.hugetlb=1", /*overwrite=*/0);
   execv("/proc/self/exe", argv);
   // Without /proc it goes on with small pages.

@@ -120,6 +120,18 @@ TEST_F(GridCommand, GivesTheFieldAnywhere) {
   EXPECT_EQ(read.out, "3 1 1 0 True True\n") << read.err;
 }
 
+// A grid is not as large as its file. The loader tells of each start.
+TEST_F(GridCommand, StartsAnewForLargePages) {
+  const auto has_two_starts = [](const std::string& command) {
+    const std::string out = Shell("env -u GLIBC_TUNABLES LD_SHOW_AUXV=1 " + command + " --help").out;
+    EXPECT_THAT(out, HasSubstr("AT_EXECFN"));
+    return out.find("AT_EXECFN") != out.rfind("AT_EXECFN");
+  };
+  EXPECT_TRUE(has_two_starts(OCTUPOLE_COMMAND " grid"));
+  EXPECT_FALSE(has_two_starts("GLIBC_TUNABLES= " OCTUPOLE_COMMAND " grid"));
+  EXPECT_FALSE(has_two_starts(OCTUPOLE_COMMAND " info"));
+}
+
 TEST_F(GridCommand, SaysWhatIsWrong) {
   WriteText(folder_ / "open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n");
   const Outcome open = RunGrid(File("open.obj") + " -o " + File("f.vtu"));

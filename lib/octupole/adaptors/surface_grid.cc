@@ -32,7 +32,7 @@ using openvdb::MaskTree;
 
 constexpr int kMaxLevels = 8;
 // Cells are the finest this far from GridOptions::fine_points, along each coordinate and in their widths.
-constexpr double kFineReach = 2;
+constexpr double kFineReach = 1;
 // Signed distances are exact up to this many widths of a cell.
 constexpr float kBandWidth = 3;
 
@@ -155,9 +155,10 @@ class GridMaker {
  public:
   GridMaker(const TriangleMesh& surface, const internal::SolidBySurface& solid, const GridOptions& options)
       : surface_(surface), solid_(solid), options_(options) {
-    // Faces of boxes, common in CAD models, lie between nodes, half a cell from both sides.
+    // Faces of boxes, common in CAD models, lie between nodes, half a cell from both sides; where the box begins, in
+    // cells of whose siblings none lies deeper.
     const Vector3d low = BoundingBox(surface).min();
-    origin_ = low - Vector3d::Constant(0.5 * options.size);
+    origin_ = low - Vector3d::Constant(1.5 * options.size);
     points_.reserve(solid.points.size());
     for (const Vector3d& p : solid.points) points_.push_back((p - origin_) / options.size);
   }

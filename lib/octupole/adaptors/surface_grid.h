@@ -33,7 +33,7 @@ struct GridOptions {
   /// uniform.
   int levels = 1;
   /// Cells are the finest near these points, too: the singular curves of a coarser grid's field, for example. Those
-  /// within 2 `size` along each coordinate.
+  /// within `size` along each coordinate.
   std::vector<Eigen::Vector3d> fine_points;
   /// As in AlignToSurface.
   double feature_angle_deg = 40;
