@@ -21,7 +21,7 @@ struct SolverArguments {
   /// As on the command line: "fast", or "cholesky", "cgnr" or "lbfgs" of Ceres.
   std::optional<std::string> solver;
   std::uint32_t seed = 0;
-  int starts = 5;
+  int starts = 15;
   int threads = 1;
   std::optional<int> max_iterations;
   bool quiet = false;

@@ -96,7 +96,7 @@ def solve(
     method: str = "penalty",
     feature_angle: float = 40.0,
     seed: int = 0,
-    starts: int = 5,
+    starts: int = 15,
     threads: int = 1,
     solver: str = "fast",
     max_iterations: Optional[int] = None,
@@ -117,7 +117,7 @@ def solve(
         `degree` says only which of their harmonics are the coefficients.
     feature_angle: degrees between normals, above which an edge of the boundary is a feature; the field follows it.
     seed: of the random starts. The same seed gives the same field.
-    starts: that the solver "fast" tries. More find lower energies, in time in proportion.
+    starts: that the solver "fast" tries at most, until two agree on the lowest energy. More find lower energies.
     threads: for the solver; the field does not depend on it.
     solver: "fast", or of Ceres "lbfgs", "cgnr" or "cholesky".
     max_iterations: stop there, converged or not.
@@ -186,7 +186,7 @@ def solve_surface(
     feature_angle: float = 40.0,
     boundary: str = "aligned",
     seed: int = 0,
-    starts: int = 5,
+    starts: int = 15,
     threads: int = 1,
     solver: str = "fast",
     max_iterations: Optional[int] = None,
@@ -230,7 +230,7 @@ def solve_graph(
     degree: int = 3,
     method: str = "penalty",
     seed: int = 0,
-    starts: int = 5,
+    starts: int = 15,
     threads: int = 1,
     solver: str = "fast",
     max_iterations: Optional[int] = None,
@@ -273,7 +273,7 @@ def solve_grid(
     method: str = "penalty",
     feature_angle: float = 40.0,
     seed: int = 0,
-    starts: int = 5,
+    starts: int = 15,
     threads: int = 1,
     solver: str = "fast",
     max_iterations: Optional[int] = None,

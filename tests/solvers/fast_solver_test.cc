@@ -125,16 +125,19 @@ TYPED_TEST(FastSolverTest, PolishesAnEarlierField) {
   EXPECT_THROW(PolishField<l>(graph, {}, start), std::invalid_argument);
 }
 
-TYPED_TEST(FastSolverTest, TriesAsManyStartsAsItIsToldTo) {
+TYPED_TEST(FastSolverTest, TriesStartsUntilTwoAgreeAndNotMoreThanItIsToldTo) {
   constexpr int l = TypeParam::value;
-  const FieldGraph graph = GraphOf(MakeBallMesh(14));
   MinimizerOptions options;
   std::set<std::string> names;
   options.step_callback = [&](const StepSummary& step) {
     if (step.num_vertices > 0 && step.name.find(" start ") != std::string::npos) names.insert(step.name);
   };
+  SolveFast<l>(GraphOf(MakeBoxMesh({8, 8, 8}, {8, 8, 8})), {}, options);
+  EXPECT_EQ(names.size(), 5u) << "which all find the constant field";
+
+  const FieldGraph graph = GraphOf(MakeBallMesh(14));
   double energy_of_one = 0, energy = 0;
-  for (const int num_starts : {1, 2, 17}) {
+  for (const int num_starts : {1, 2, 5}) {
     names.clear();
     options.num_starts = num_starts;
     const FieldSolution<l> field = SolveFast<l>(graph, {}, options);

@@ -173,7 +173,13 @@ TEST(SolveField, TakesResidualBlocksOnSurfaces) {
   const Field<3> fast = SolveField<3>(torus);
   EXPECT_EQ(by_blocks.size.unknowns, 2 * torus.points.size());
   EXPECT_EQ(fast.size.unknowns, 2 * torus.points.size());
-  EXPECT_NEAR(by_blocks.energy, fast.energy, 1e-2 * fast.energy);
+  const auto energy_of_frames = [&torus](const Field<3>& field) {
+    double energy = 0;
+    for (const auto& [a, b] : MeshEdges(torus)) energy += FrameDifference<4>(field.frames[a], field.frames[b]);
+    return energy;
+  };
+  EXPECT_LE(energy_of_frames(fast), energy_of_frames(by_blocks));
+  EXPECT_NEAR(by_blocks.energy, fast.energy, 3e-2 * fast.energy);
 }
 
 TEST(SolveField, RefusesWhatIsNoSurface) {

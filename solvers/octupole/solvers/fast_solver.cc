@@ -78,106 +78,133 @@ std::vector<Level> MakeHierarchy(const FieldGraph& graph, const std::vector<int>
   return levels;
 }
 
-template <int kDegree>
-std::vector<Harmonic<kDegree>> Prolongate(const Level& coarse, const std::vector<Harmonic<kDegree>>& field) {
-  std::vector<Harmonic<kDegree>> fine;
+// From the clusters of a graph to the vertices of the next finer one.
+template <typename Value>
+std::vector<Value> Prolongate(const Level& coarse, const std::vector<Value>& values) {
+  std::vector<Value> fine;
   fine.reserve(coarse.cluster_of.size());
-  for (const int cluster : coarse.cluster_of) fine.push_back(field[cluster]);
+  for (const int cluster : coarse.cluster_of) fine.push_back(values[cluster]);
   return fine;
 }
 
-// Brings a field to the finer graph `to`, minimising it on those that it leaves.
-template <int kDegree>
-void Refine(const std::vector<Level>& levels, std::size_t from, std::size_t to, Minimizer* minimizer,
-            std::vector<Harmonic<kDegree>>* field) {
-  for (std::size_t level = from; level > to; --level) {
-    MinimizeField<kDegree>(levels[level].graph, levels[level].weights, kFieldTolerance, minimizer, field);
-    *field = Prolongate<kDegree>(levels[level], *field);
-  }
+// From the next coarser graph to that of `level`.
+Frames ProlongateFrames(const std::vector<Level>& levels, std::size_t level, const Frames& frames) {
+  return AlignFrames(levels[level].graph.alignments, Prolongate(levels[level + 1], frames));
 }
 
-// Start number `i` on the graph `level`, in rounds of five: the linear one, three random ones and one from the coarsest
-// graph. In later rounds the first and the third are found in the other degree, whose minima are others.
-template <int kDegree>
-std::vector<Harmonic<kDegree>> MakeStart(const std::vector<Level>& levels, std::size_t level, int i, std::uint32_t seed,
-                                         Minimizer* minimizer, std::string* name) {
-  constexpr int kOther = 7 - kDegree;
-  constexpr std::uint32_t kSeedsApart = 1000003;
-  const SweepGraph& graph = levels[level].graph;
-  const int round = i / kRound, place = i % kRound;
-  seed += static_cast<std::uint32_t>(round) * kSeedsApart;
-  const std::uint32_t random_seed = 3 * seed + static_cast<std::uint32_t>(place) - 1;
-  const auto begin = [&](const std::string& kind) {
-    *name = kind + " start " + std::to_string(i + 1);
-    minimizer->BeginStep(*name);
-  };
-  if (i == 0) {
-    begin("linear");
-    return internal::HarmonicsOf<kDegree>(internal::LinearFrames(graph, kFieldTolerance, seed, minimizer));
-  }
-  if (place == kRound - 1 && level + 1 < levels.size()) {
-    begin("coarse");
-    std::vector<Harmonic<kDegree>> field = RandomField<kDegree>(levels.back().graph.alignments, seed);
-    Refine<kDegree>(levels, levels.size() - 1, level, minimizer, &field);
-    return field;
-  }
-  if (round > 0 && place % 2 == 0) {
-    begin("degree " + std::to_string(kOther));
-    std::vector<Harmonic<kOther>> field = RandomField<kOther>(graph.alignments, random_seed);
-    MinimizeField<kOther>(graph, levels[level].weights, kFieldTolerance, minimizer, &field);
-    return internal::HarmonicsOf<kDegree>(ProjectField<kOther>(graph.alignments, field, minimizer->workers()));
-  }
-  begin("random");
-  return RandomField<kDegree>(graph.alignments, random_seed);
-}
-
-// A field, and its frames.
-template <int kDegree>
-struct Solved {
+// Frames on one of the graphs, and where they come from.
+struct Start {
   std::string name;
-  std::vector<Harmonic<kDegree>> field;
   Frames frames;
-  /// Of the frames.
   double energy = 0;
 };
 
-// Minimises from `field`, and polishes the frames. Not where the minimiser fails.
-template <int kDegree>
-void Solve(const Level& level, Minimizer* minimizer, Solved<kDegree>* solved) {
-  minimizer->BeginStep(solved->name.empty() ? "field" : solved->name);
-  MinimizeField<kDegree>(level.graph, level.weights, kFieldTolerance, minimizer, &solved->field);
-  if (minimizer->termination() == ceres::FAILURE) return;
-  solved->frames = ProjectField<kDegree>(level.graph.alignments, solved->field, minimizer->workers());
-  minimizer->BeginStep(solved->name.empty() ? "frames" : solved->name);
-  solved->energy = PolishFrames(level.graph, minimizer, &solved->frames);
+void Polish(const Level& level, const std::string& step, Minimizer* minimizer, Start* start) {
+  minimizer->BeginStep(step);
+  start->energy = PolishFrames(level.graph, minimizer, &start->frames);
 }
 
+// Minimises the field energy from `field`, which becomes the result, and then that of its frames.
 template <int kDegree>
-void SolveAll(const Level& level, Minimizer* minimizer, std::vector<Solved<kDegree>>* starts) {
-  for (Solved<kDegree>& start : *starts) Solve(level, minimizer, &start);
-  std::stable_sort(starts->begin(), starts->end(), [](const auto& a, const auto& b) { return a.energy < b.energy; });
+void Solve(const Level& level, const std::string& field_step, const std::string& frames_step, Minimizer* minimizer,
+           std::vector<Harmonic<kDegree>>* field, Start* start) {
+  minimizer->BeginStep(field_step);
+  MinimizeField<kDegree>(level.graph, level.weights, kFieldTolerance, minimizer, field);
+  if (minimizer->termination() == ceres::FAILURE) return;
+  start->frames = ProjectField<kDegree>(level.graph.alignments, *field, minimizer->workers());
+  Polish(level, frames_step, minimizer, start);
+}
+
+// From a random field on the graph `from`, on it and those between it and the finer `level`.
+template <int kDegree>
+Start SolveRandom(const std::vector<Level>& levels, std::size_t from, std::size_t level, const std::string& name,
+                  std::uint32_t seed, Minimizer* minimizer) {
+  Start start = {name, {}, 0};
+  minimizer->BeginStep(name);
+  std::vector<Harmonic<kDegree>> field = RandomField<kDegree>(levels[from].graph.alignments, seed);
+  for (; from > level; --from) {
+    MinimizeField<kDegree>(levels[from].graph, levels[from].weights, kFieldTolerance, minimizer, &field);
+    field = Prolongate(levels[from], field);
+  }
+  Solve<kDegree>(levels[level], name, name, minimizer, &field, &start);
+  return start;
+}
+
+// Start number `i` on the graph `level`, in rounds of five: the linear one, three random ones and one from the coarsest
+// graph. Every second is found in the other degree, whose minima are others.
+template <int kDegree>
+Start MakeStart(const std::vector<Level>& levels, std::size_t level, int i, std::uint32_t seed, Minimizer* minimizer) {
+  constexpr std::uint32_t kSeedsApart = 1000003;
+  const int round = i / kRound, place = i % kRound;
+  seed += static_cast<std::uint32_t>(round) * kSeedsApart;
+  const std::string number = " start " + std::to_string(i + 1);
+  if (i == 0) {
+    Start start = {"linear" + number, {}, 0};
+    minimizer->BeginStep(start.name);
+    std::vector<Harmonic<kDegree>> field =
+        internal::HarmonicsOf<kDegree>(internal::LinearFrames(levels[level].graph, kFieldTolerance, seed, minimizer));
+    Solve<kDegree>(levels[level], start.name, start.name, minimizer, &field, &start);
+    return start;
+  }
+  const bool is_coarse = place == kRound - 1 && level + 1 < levels.size();
+  const std::size_t from = is_coarse ? levels.size() - 1 : level;
+  const std::string name = (is_coarse ? "coarse" : "random") + number;
+  if (!is_coarse) seed = 3 * seed + static_cast<std::uint32_t>(place) - 1;
+  return i % 2 == 1 ? SolveRandom<7 - kDegree>(levels, from, level, name, seed, minimizer)
+                    : SolveRandom<kDegree>(levels, from, level, name, seed, minimizer);
+}
+
+// Of energies in that order on one graph; near a constant field, up to rounding.
+auto IsSameEnergyOn(const SweepGraph& graph) {
+  constexpr double kRounding = 1e-8;
+  return [rounding = kRounding * graph.sum_of_weights](const Start& a, const Start& b) {
+    return b.energy - a.energy <= kSameEnergy * a.energy + rounding;
+  };
+}
+
+void SortByEnergy(std::vector<Start>* starts) {
+  std::stable_sort(starts->begin(), starts->end(), [](const Start& a, const Start& b) { return a.energy < b.energy; });
+}
+
+// Starts on the graph `level`, the lowest energy first: another round while no two agree on the lowest.
+template <int kDegree>
+std::vector<Start> MakeStarts(const std::vector<Level>& levels, std::size_t level, const MinimizerOptions& options,
+                              Minimizer* minimizer) {
+  const auto is_same = IsSameEnergyOn(levels[level].graph);
+  std::vector<Start> starts;
+  for (int i = 0; i < options.num_starts && minimizer->termination() != ceres::FAILURE; ++i) {
+    if (i > 0 && i % kRound == 0 && is_same(starts[0], starts[1])) break;
+    starts.push_back(MakeStart<kDegree>(levels, level, i, options.seed, minimizer));
+    SortByEnergy(&starts);
+  }
+  return starts;
 }
 
 // The best of several starts on the finest graph that is small enough, `level`. A coarse graph tells badly which is the
-// best: the better half goes on to the next finer graph, which `level` becomes, if it is more than one. Starts of the
-// same energy have most likely ended in the same field, and count once.
+// best: the better half goes on to the next finer graph, which `level` becomes, if it is more than one; there both as
+// frames and by the field that they begin, as either may find the lower energy. Starts of the same energy have most
+// likely ended in the same field, and count once.
 template <int kDegree>
-Solved<kDegree> ChooseStart(const std::vector<Level>& levels, const MinimizerOptions& options, Minimizer* minimizer,
-                            std::size_t* level) {
+Start ChooseStart(const std::vector<Level>& levels, const MinimizerOptions& options, Minimizer* minimizer,
+                  std::size_t* level) {
   *level = 0;
   while (*level + 1 < levels.size() && levels[*level].graph.num_vertices() > kMaxStartVertices) ++*level;
-  std::vector<Solved<kDegree>> starts(options.num_starts);
-  for (int i = 0; i < options.num_starts; ++i) {
-    starts[i].field = MakeStart<kDegree>(levels, *level, i, options.seed, minimizer, &starts[i].name);
-  }
-  SolveAll(levels[*level], minimizer, &starts);
-  const auto is_same = [](const auto& a, const auto& b) { return b.energy - a.energy <= kSameEnergy * a.energy; };
-  starts.erase(std::unique(starts.begin(), starts.end(), is_same), starts.end());
-  starts.resize(std::min(starts.size(), std::max<std::size_t>(1, static_cast<std::size_t>(options.num_starts) / 2)));
-  if (*level > 0 && starts.size() > 1) {
-    for (Solved<kDegree>& start : starts) start.field = Prolongate<kDegree>(levels[*level], start.field);
+  std::vector<Start> starts = MakeStarts<kDegree>(levels, *level, options, minimizer);
+  const std::size_t half = std::max<std::size_t>(1, starts.size() / 2);
+  starts.erase(std::unique(starts.begin(), starts.end(), IsSameEnergyOn(levels[*level].graph)), starts.end());
+  starts.resize(std::min(starts.size(), half));
+  if (*level > 0 && starts.size() > 1 && minimizer->termination() != ceres::FAILURE) {
     --*level;
-    SolveAll(levels[*level], minimizer, &starts);
+    std::vector<Start> finer;
+    for (const Start& start : starts) {
+      finer.push_back({start.name, ProlongateFrames(levels, *level, start.frames), 0});
+      std::vector<Harmonic<kDegree>> field = internal::HarmonicsOf<kDegree>(finer.back().frames);
+      Polish(levels[*level], start.name, minimizer, &finer.back());
+      finer.push_back({start.name, {}, 0});
+      Solve<kDegree>(levels[*level], start.name, start.name, minimizer, &field, &finer.back());
+    }
+    starts = std::move(finer);
+    SortByEnergy(&starts);
   }
   minimizer->Tell(starts[0].name + " chosen");
   return std::move(starts[0]);
@@ -196,18 +223,18 @@ double EnergyOf(const SweepGraph& graph, const EnergyWeights& weights, const std
 // What was found on the finest graph, `original` in the order of `order`, in the caller's order.
 template <int kDegree>
 FieldSolution<kDegree> MakeSolution(const FieldGraph& original, const Level& finest, const std::vector<int>& order,
-                                    const Solved<kDegree>& solved, Minimizer* minimizer) {
+                                    const std::vector<Harmonic<kDegree>>& field, const Frames& frames,
+                                    Minimizer* minimizer) {
   FieldSolution<kDegree> result;
   result.size = SizeOfProblem(original, kUnknownsOfKind<kDegree>);
   result.termination = minimizer->termination();
   if (result.termination == ceres::FAILURE) return result;
-  result.energy = EnergyOf<kDegree>(finest.graph, finest.weights, solved.field, minimizer->workers());
+  result.energy = EnergyOf<kDegree>(finest.graph, finest.weights, field, minimizer->workers());
   result.iterations = minimizer->iterations();
-  result.coefficients = internal::InOriginalOrder(original, order, solved.field, [](const Alignment& alignment) {
-    return HarmonicFromFrame<kDegree>(alignment.frame());
-  });
-  result.frames = internal::InOriginalOrder(original, order, solved.frames,
-                                            [](const Alignment& alignment) { return alignment.frame(); });
+  result.coefficients = internal::InOriginalOrder(
+      original, order, field, [](const Alignment& alignment) { return HarmonicFromFrame<kDegree>(alignment.frame()); });
+  result.frames =
+      internal::InOriginalOrder(original, order, frames, [](const Alignment& alignment) { return alignment.frame(); });
   return result;
 }
 
@@ -224,19 +251,25 @@ FieldSolution<kDegree> SolveFast(const FieldGraph& graph, const EnergyWeights& w
   const std::vector<int> order = BreadthFirstOrder(graph);
   const std::vector<Level> levels = MakeHierarchy(graph, order, weights);
   std::size_t level = 0;
-  Solved<kDegree> solved = ChooseStart<kDegree>(levels, options, &minimizer, &level);
-  if (level > 0) {
-    minimizer.BeginStep("level");
-    solved.field = Prolongate<kDegree>(levels[level], solved.field);
-    Refine<kDegree>(levels, level - 1, 0, &minimizer, &solved.field);
-    solved.name.clear();
-    Solve(levels[0], &minimizer, &solved);
-  } else if (minimizer.termination() != ceres::FAILURE) {
-    // Further than it takes to compare.
-    minimizer.BeginStep("frames");
-    PolishFrames(levels[0].graph, &minimizer, &solved.frames);
+  Start start = ChooseStart<kDegree>(levels, options, &minimizer, &level);
+  std::vector<Harmonic<kDegree>> field;
+  if (minimizer.termination() == ceres::FAILURE) {
+    // There is nothing to go on from.
+  } else if (level == 0) {
+    // Further than it takes to compare; then the field next to them.
+    Polish(levels[0], "frames", &minimizer, &start);
+    field = internal::HarmonicsOf<kDegree>(start.frames);
+    minimizer.BeginStep("field");
+    MinimizeField<kDegree>(levels[0].graph, weights, kFieldTolerance, &minimizer, &field);
+  } else {
+    while (--level > 0) {
+      start.frames = ProlongateFrames(levels, level, start.frames);
+      Polish(levels[level], "level", &minimizer, &start);
+    }
+    field = internal::HarmonicsOf<kDegree>(ProlongateFrames(levels, 0, start.frames));
+    Solve<kDegree>(levels[0], "field", "frames", &minimizer, &field, &start);
   }
-  return MakeSolution(graph, levels[0], order, solved, &minimizer);
+  return MakeSolution<kDegree>(graph, levels[0], order, field, start.frames, &minimizer);
 }
 
 template <int kDegree>
@@ -247,11 +280,12 @@ FieldSolution<kDegree> SolveFastFrom(const FieldGraph& graph, const EnergyWeight
   Minimizer minimizer(options);
   const std::vector<int> order = BreadthFirstOrder(graph);
   const Level level = {SweepGraph(Reorder(graph, order)), {}, weights};
-  Solved<kDegree> solved;
-  solved.field.reserve(order.size());
-  for (const int v : order) solved.field.push_back(start[v]);
-  Solve(level, &minimizer, &solved);
-  return MakeSolution(graph, level, order, solved, &minimizer);
+  std::vector<Harmonic<kDegree>> field;
+  field.reserve(order.size());
+  for (const int v : order) field.push_back(start[v]);
+  Start result;
+  Solve<kDegree>(level, "field", "frames", &minimizer, &field, &result);
+  return MakeSolution<kDegree>(graph, level, order, field, result.frames, &minimizer);
 }
 
 template <int kDegree>

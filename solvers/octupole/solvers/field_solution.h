@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -30,10 +31,11 @@ struct StepSummary {
 struct MinimizerOptions {
   /// Seed of the random starts.
   std::uint32_t seed = 0;
-  /// Of SolveFast: how many starts it tries. More find lower energies, in time that grows with them.
-  int num_starts = 5;
-  /// Of all minimisations together.
-  int max_iterations = 5000;
+  /// Of SolveFast: how many starts it tries at most, in rounds of five until two agree on the lowest energy. More find
+  /// lower energies, in time that grows with them.
+  int num_starts = 15;
+  /// Of all minimisations together; by default each ends when it has converged.
+  int max_iterations = std::numeric_limits<int>::max();
   int num_threads = 1;
   /// Called after every iteration; of the summary, `iteration`, `cost`, `cost_change`, `gradient_max_norm`, `step_size`
   /// and `cumulative_time_in_seconds` are set. The cost is that of the minimisation at work, often one on a coarser
