@@ -166,14 +166,15 @@ void SortByEnergy(std::vector<Start>* starts) {
   std::stable_sort(starts->begin(), starts->end(), [](const Start& a, const Start& b) { return a.energy < b.energy; });
 }
 
-// Starts on the graph `level`, the lowest energy first: another round while no two agree on the lowest.
+// Starts on the graph `level`, the lowest energy first: another round while no two agree on the lowest. Only one round
+// where the finest graph is finer than the next: the lowest of many on a graph so coarse is lowest there by accident.
 template <int kDegree>
 std::vector<Start> MakeStarts(const std::vector<Level>& levels, std::size_t level, const MinimizerOptions& options,
                               Minimizer* minimizer) {
   const auto is_same = IsSameEnergyOn(levels[level].graph);
   std::vector<Start> starts;
   for (int i = 0; i < options.num_starts && minimizer->termination() != ceres::FAILURE; ++i) {
-    if (i > 0 && i % kRound == 0 && is_same(starts[0], starts[1])) break;
+    if (i > 0 && i % kRound == 0 && (level > 1 || is_same(starts[0], starts[1]))) break;
     starts.push_back(MakeStart<kDegree>(levels, level, i, options.seed, minimizer));
     SortByEnergy(&starts);
   }
@@ -181,8 +182,8 @@ std::vector<Start> MakeStarts(const std::vector<Level>& levels, std::size_t leve
 }
 
 // The best of several starts on the finest graph that is small enough, `level`. A coarse graph tells badly which is the
-// best: the better half goes on to the next finer graph, which `level` becomes, if it is more than one; there both as
-// frames and by the field that they begin, as either may find the lower energy. Starts of the same energy have most
+// best: the better half goes on to the next finer graph, which `level` becomes, if it is more than one; there the best
+// also by the field that it begins, which may find a lower energy than its frames. Starts of the same energy have most
 // likely ended in the same field, and count once.
 template <int kDegree>
 Start ChooseStart(const std::vector<Level>& levels, const MinimizerOptions& options, Minimizer* minimizer,
@@ -194,17 +195,21 @@ Start ChooseStart(const std::vector<Level>& levels, const MinimizerOptions& opti
   starts.erase(std::unique(starts.begin(), starts.end(), IsSameEnergyOn(levels[*level].graph)), starts.end());
   starts.resize(std::min(starts.size(), half));
   if (*level > 0 && starts.size() > 1 && minimizer->termination() != ceres::FAILURE) {
-    --*level;
-    std::vector<Start> finer;
-    for (const Start& start : starts) {
-      finer.push_back({start.name, ProlongateFrames(levels, *level, start.frames), 0});
-      std::vector<Harmonic<kDegree>> field = internal::HarmonicsOf<kDegree>(finer.back().frames);
-      Polish(levels[*level], start.name, minimizer, &finer.back());
-      finer.push_back({start.name, {}, 0});
-      Solve<kDegree>(levels[*level], start.name, start.name, minimizer, &field, &finer.back());
+    const Level& finer = levels[--*level];
+    Start best;
+    std::size_t place = 0;
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+      Start start = {starts[i].name, ProlongateFrames(levels, *level, starts[i].frames), 0};
+      Polish(finer, start.name, minimizer, &start);
+      if (i > 0 && start.energy >= best.energy) continue;
+      best = std::move(start);
+      place = i;
     }
-    starts = std::move(finer);
-    SortByEnergy(&starts);
+    std::vector<Harmonic<kDegree>> field =
+        internal::HarmonicsOf<kDegree>(ProlongateFrames(levels, *level, starts[place].frames));
+    Start by_field = {best.name, {}, 0};
+    Solve<kDegree>(finer, best.name, best.name, minimizer, &field, &by_field);
+    starts[0] = by_field.energy < best.energy ? std::move(by_field) : std::move(best);
   }
   minimizer->Tell(starts[0].name + " chosen");
   return std::move(starts[0]);
