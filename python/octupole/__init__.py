@@ -117,7 +117,7 @@ def solve(
         `degree` says only which of their harmonics are the coefficients.
     feature_angle: degrees between normals, above which an edge of the boundary is a feature; the field follows it.
     seed: of the random starts. The same seed gives the same field.
-    starts: that the solver "fast" tries at most, until two agree on the lowest energy. More find lower energies.
+    starts: that the solver "fast" tries at most, until two agree on the lowest energy; five from 14,000 vertices on.
     threads: for the solver; the field does not depend on it.
     solver: "fast", or of Ceres "lbfgs", "cgnr" or "cholesky".
     max_iterations: stop there, converged or not.

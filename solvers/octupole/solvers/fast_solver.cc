@@ -115,6 +115,16 @@ void Solve(const Level& level, const std::string& field_step, const std::string&
   Polish(level, frames_step, minimizer, start);
 }
 
+// Brings a field to the finer graph `to`, minimising it on those that it leaves.
+template <int kDegree>
+void Refine(const std::vector<Level>& levels, std::size_t from, std::size_t to, Minimizer* minimizer,
+            std::vector<Harmonic<kDegree>>* field) {
+  for (std::size_t level = from; level > to; --level) {
+    MinimizeField<kDegree>(levels[level].graph, levels[level].weights, kFieldTolerance, minimizer, field);
+    *field = Prolongate(levels[level], *field);
+  }
+}
+
 // From a random field on the graph `from`, on it and those between it and the finer `level`.
 template <int kDegree>
 Start SolveRandom(const std::vector<Level>& levels, std::size_t from, std::size_t level, const std::string& name,
@@ -122,10 +132,7 @@ Start SolveRandom(const std::vector<Level>& levels, std::size_t from, std::size_
   Start start = {name, {}, 0};
   minimizer->BeginStep(name);
   std::vector<Harmonic<kDegree>> field = RandomField<kDegree>(levels[from].graph.alignments, seed);
-  for (; from > level; --from) {
-    MinimizeField<kDegree>(levels[from].graph, levels[from].weights, kFieldTolerance, minimizer, &field);
-    field = Prolongate(levels[from], field);
-  }
+  Refine<kDegree>(levels, from, level, minimizer, &field);
   Solve<kDegree>(levels[level], name, name, minimizer, &field, &start);
   return start;
 }
@@ -267,11 +274,10 @@ FieldSolution<kDegree> SolveFast(const FieldGraph& graph, const EnergyWeights& w
     minimizer.BeginStep("field");
     MinimizeField<kDegree>(levels[0].graph, weights, kFieldTolerance, &minimizer, &field);
   } else {
-    while (--level > 0) {
-      start.frames = ProlongateFrames(levels, level, start.frames);
-      Polish(levels[level], "level", &minimizer, &start);
-    }
-    field = internal::HarmonicsOf<kDegree>(ProlongateFrames(levels, 0, start.frames));
+    --level;
+    field = internal::HarmonicsOf<kDegree>(ProlongateFrames(levels, level, start.frames));
+    minimizer.BeginStep("level");
+    Refine<kDegree>(levels, level, 0, &minimizer, &field);
     Solve<kDegree>(levels[0], "field", "frames", &minimizer, &field, &start);
   }
   return MakeSolution<kDegree>(graph, levels[0], order, field, start.frames, &minimizer);

@@ -32,7 +32,8 @@ struct MinimizerOptions {
   /// Seed of the random starts.
   std::uint32_t seed = 0;
   /// Of SolveFast: how many starts it tries at most, in rounds of five until two agree on the lowest energy. More find
-  /// lower energies, in time that grows with them.
+  /// lower energies, in time that grows with them. From some 14,000 vertices on it tries one round: there the lowest of
+  /// more on a coarse graph has proved no lower on the mesh.
   int num_starts = 15;
   /// Of all minimisations together; by default each ends when it has converged.
   int max_iterations = std::numeric_limits<int>::max();
