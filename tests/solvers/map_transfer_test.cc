@@ -11,15 +11,6 @@
 namespace octupole::internal {
 namespace {
 
-CornerParameters AtCorners(const MapDomain& domain, const Vector& y) {
-  const std::vector<double> u = domain.unknowns.Parameters(y);
-  CornerParameters parameters(domain.mesh.tets.size());
-  for (std::size_t t = 0; t < parameters.size(); ++t) {
-    for (int i = 0; i < 4; ++i) parameters[t][i] = Eigen::Map<const Eigen::Vector3d>(&u[3 * domain.cut.nodes[t][i]]);
-  }
-  return parameters;
-}
-
 // Neither the names of axes nor shifts change it.
 Eigen::Matrix3d MetricOf(const TetMesh& mesh, const CornerParameters& parameters, int t) {
   Eigen::Matrix3d edges, images;
@@ -40,10 +31,10 @@ TEST(MapTransfer, KeepsTheMetric) {
   std::uniform_real_distribution<double> uniform(-1, 1);
   Vector y(domain.unknowns.num_unknowns);
   for (double& value : y) value = uniform(generator);
-  const CornerParameters before = AtCorners(domain, y);
+  const CornerParameters before = ParametersAtCorners(domain, y);
   const MapDomain finer = RefineMapDomain(domain, {20, 100, 250});
   ASSERT_GT(finer.mesh.tets.size(), domain.mesh.tets.size());
-  const CornerParameters after = AtCorners(finer, TransferMap(domain, before, finer));
+  const CornerParameters after = ParametersAtCorners(finer, TransferMap(domain, before, finer));
   for (int t = 0; t < static_cast<int>(after.size()); ++t) {
     const Eigen::Matrix3d one = MetricOf(finer.mesh, after, t), other = MetricOf(domain.mesh, before, finer.parents[t]);
     EXPECT_LT((one - other).norm(), 1e-9 * other.norm()) << t;

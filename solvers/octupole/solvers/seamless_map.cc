@@ -106,17 +106,6 @@ void FitFrames(double tolerance, MapEnergy* energy, Vector* x) {
   for (std::size_t i = 0; i < x->size(); ++i) (*x)[i] += step[i];
 }
 
-CornerParameters AtCorners(const MapDomain& domain, const Vector& y) {
-  const std::vector<double> u = domain.unknowns.Parameters(y);
-  CornerParameters parameters(domain.mesh.tets.size());
-  for (std::size_t t = 0; t < parameters.size(); ++t) {
-    for (int i = 0; i < 4; ++i) {
-      parameters[t][i] = Eigen::Map<const Eigen::Vector3d>(&u[3 * static_cast<std::size_t>(domain.cut.nodes[t][i])]);
-    }
-  }
-  return parameters;
-}
-
 constexpr double kFitTolerance = 1e-5;
 
 // A map on its way.
@@ -387,7 +376,7 @@ SeamlessMap SolveSeamlessMap(const TetMesh& mesh, const std::vector<Eigen::Matri
       map.num_rounded = solver.num_rounded();
     }
     map.num_iterations = solver.num_iterations();
-    map.parameters = AtCorners(map.domain, solver.y());
+    map.parameters = internal::ParametersAtCorners(map.domain, solver.y());
     if (is_last) {
       map.flipped = solver.FindFlipped();
       map.foldover_seconds += SecondsSince(fitted);

@@ -1,5 +1,6 @@
 #include "octupole/solvers/internal/map_system.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 
 namespace octupole::internal {
@@ -90,6 +91,17 @@ std::vector<bool> FindUnknownsAround(const MapDomain& domain, const std::vector<
     }
   }
   return is_free;
+}
+
+CornerParameters ParametersAtCorners(const MapDomain& domain, const Vector& y) {
+  const std::vector<double> u = domain.unknowns.Parameters(y);
+  CornerParameters parameters(domain.mesh.tets.size());
+  for (std::size_t t = 0; t < parameters.size(); ++t) {
+    for (int i = 0; i < 4; ++i) {
+      parameters[t][i] = Eigen::Map<const Eigen::Vector3d>(&u[3 * static_cast<std::size_t>(domain.cut.nodes[t][i])]);
+    }
+  }
+  return parameters;
 }
 
 }  // namespace octupole::internal

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "octupole/maps/map_domain.h"
+#include "octupole/maps/map_quality.h"
 
 namespace octupole::internal {
 
@@ -37,5 +38,8 @@ MapSystem MakeMapSystem(const MapDomain& domain, const Vector& y, const std::vec
 
 /// Which unknowns drive parameters of no other vertices than those `num_rings` edges from the tetrahedra.
 std::vector<bool> FindUnknownsAround(const MapDomain& domain, const std::vector<int>& tets, int num_rings);
+
+/// The map of a domain's unknowns at the corners of its tetrahedra.
+CornerParameters ParametersAtCorners(const MapDomain& domain, const Vector& y);
 
 }  // namespace octupole::internal
