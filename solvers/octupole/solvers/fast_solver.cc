@@ -318,13 +318,12 @@ FieldSolution<kDegree> PolishField(const FieldGraph& graph, const EnergyWeights&
   }
   polished = AlignFrames(ordered.alignments, std::move(polished));
   PolishFrames(ordered, &minimizer, &polished, kChangeTolerance);
-  // Before there are two arrays of frames: it takes the most memory.
-  const double energy =
-      EnergyOf<kDegree>(ordered, weights, internal::HarmonicsOf<kDegree>(polished), minimizer.workers());
   FieldSolution<kDegree> result;
   static_cast<FrameSolution&>(result) =
       minimizer.MakeSolution(graph, order, polished, 0, SizeOfProblem(graph, kUnknownsOfKind<kDegree>));
-  result.energy = energy;
+  for (const auto& [a, b, weight] : graph.edges) {
+    result.energy += weight * FrameDifference<kDegree>(result.frames[a], result.frames[b]);
+  }
   result.coefficients = internal::HarmonicsOf<kDegree>(result.frames);
   return result;
 }
