@@ -27,7 +27,9 @@ void UseLargePages(int argc, char** argv) {
   // A grid may be large whatever the file is.
   const bool is_grid = argc > 1 && std::string_view(argv[1]) == "grid";
   if (std::getenv(kTunables) != nullptr || (!is_grid && std::none_of(argv + 1, argv + argc, IsLargeFile))) return;
-  setenv(kTunables, "glibc.malloc.hugetlb=1", /*overwrite=*/0);
+  setenv(kTunables,
+         "glibc.malloc.hugetlb=1:glibc.malloc.mmap_threshold=134217728:glibc.malloc.trim_threshold=8589934592",
+         /*overwrite=*/0);
   execv("/proc/self/exe", argv);
   // Without /proc it goes on with small pages.
 }

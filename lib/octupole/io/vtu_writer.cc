@@ -16,17 +16,22 @@ namespace {
 
 void WriteBase64(std::ostream& out, const void* data, std::size_t size) {
   constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  constexpr std::size_t kPiece = 3 << 14;
   const auto* bytes = static_cast<const unsigned char*>(data);
-  std::string text(4 * ((size + 2) / 3), '=');
-  char* next = text.data();
-  for (std::size_t i = 0; i < size; i += 3) {
-    const std::size_t num_bytes = std::min<std::size_t>(3, size - i);
-    std::uint32_t bits = 0;
-    for (std::size_t k = 0; k < 3; ++k) bits = bits << 8 | (k < num_bytes ? bytes[i + k] : 0u);
-    for (std::size_t k = 0; k <= num_bytes; ++k) next[k] = kDigits[bits >> (18 - 6 * k) & 63];
-    next += 4;
+  std::string text;
+  for (std::size_t begin = 0; begin < size; begin += kPiece) {
+    const std::size_t end = std::min(size, begin + kPiece);
+    text.assign(4 * ((end - begin + 2) / 3), '=');
+    char* next = text.data();
+    for (std::size_t i = begin; i < end; i += 3) {
+      const std::size_t num_bytes = std::min<std::size_t>(3, end - i);
+      std::uint32_t bits = 0;
+      for (std::size_t k = 0; k < 3; ++k) bits = bits << 8 | (k < num_bytes ? bytes[i + k] : 0u);
+      for (std::size_t k = 0; k <= num_bytes; ++k) next[k] = kDigits[bits >> (18 - 6 * k) & 63];
+      next += 4;
+    }
+    out << text;
   }
-  out << text;
 }
 
 std::string XmlEscaped(const std::string& text) {
@@ -64,6 +69,12 @@ std::size_t SizeOf(VtuCellType type) {
       break;
   }
   return 8;
+}
+
+std::size_t CountCells(const std::vector<VtuCells>& cells) {
+  std::size_t count = 0;
+  for (const VtuCells& block : cells) count += block.count;
+  return count;
 }
 
 // Appends a zlib stream to `compressed`. Run lengths and Huffman codes find most of what there is to find in
@@ -125,29 +136,36 @@ void WriteArray(std::ostream& out, std::string_view type, const std::string& nam
   WriteArray(out, type, name, 1, values.data(), values.size() * sizeof(Number));
 }
 
+void WriteConnectivity(std::ostream& out, const std::vector<VtuCells>& cells) {
+  std::vector<std::int32_t> all;
+  const auto write = [&](const std::int32_t* vertices, std::size_t count) {
+    WriteArray(out, "Int32", "connectivity", 1, vertices, count * sizeof(*vertices));
+  };
+  if (cells.size() == 1) {  // as is, for they may be many
+    write(cells[0].vertices, SizeOf(cells[0].type) * cells[0].count);
+    return;
+  }
+  for (const VtuCells& block : cells) {
+    all.insert(all.end(), block.vertices, block.vertices + SizeOf(block.type) * block.count);
+  }
+  write(all.data(), all.size());
+}
+
 void WriteCells(std::ostream& out, const std::vector<VtuCells>& cells) {
-  std::vector<std::int32_t> connectivity;
   std::vector<std::int64_t> offsets;
   std::vector<std::uint8_t> types;
+  offsets.reserve(CountCells(cells));
+  types.reserve(offsets.capacity());
   for (const VtuCells& block : cells) {
-    const std::size_t size = SizeOf(block.type);
-    connectivity.insert(connectivity.end(), block.vertices, block.vertices + size * block.count);
-    for (std::size_t c = 0; c < block.count; ++c) {
-      offsets.push_back((offsets.empty() ? 0 : offsets.back()) + static_cast<std::int64_t>(size));
-    }
+    const auto size = static_cast<std::int64_t>(SizeOf(block.type));
+    for (std::size_t c = 0; c < block.count; ++c) offsets.push_back((offsets.empty() ? 0 : offsets.back()) + size);
     types.insert(types.end(), block.count, static_cast<std::uint8_t>(block.type));
   }
   out << "<Cells>\n";
-  WriteArray(out, "Int32", "connectivity", connectivity);
+  WriteConnectivity(out, cells);
   WriteArray(out, "Int64", "offsets", offsets);
   WriteArray(out, "UInt8", "types", types);
   out << "</Cells>\n";
-}
-
-std::size_t CountCells(const std::vector<VtuCells>& cells) {
-  std::size_t count = 0;
-  for (const VtuCells& block : cells) count += block.count;
-  return count;
 }
 
 void WriteContent(std::ostream& out, const std::vector<Eigen::Vector3d>& points, const std::vector<VtuCells>& cells,

@@ -86,16 +86,24 @@ void InspectVertices(const TetMesh& mesh, MeshInspection* result) {
 
 void InspectNeighbours(const TetMesh& mesh, MeshInspection* result) {
   const std::size_t num_points = mesh.points.size();
-  constexpr std::array<std::array<int, 4>, 1> kTetItself = {{{0, 1, 2, 3}}};
-  ForEachDistinct(mesh.tets, kTetItself, num_points,
-                  [&](const Simplex<4>&, int count) { result->duplicate_tets += count - 1; });
-
   std::vector<std::array<int, 3>> boundary;
+  std::vector<int> tops;
   ForEachDistinct(mesh.tets, internal::kTetFaces, num_points, [&](const Simplex<3>& face, int count) {
     result->overfull_triangles += count > 2;
     if (count == 1) {
       boundary.push_back(face.vertices);
+      return;
     }
+    // Tetrahedra that repeat another share their three smallest vertices, and the fourth above them. Equal faces lie
+    // one behind the other.
+    tops.clear();
+    for (int i = 0; i < count; ++i) {
+      const std::array<int, 4>& tet = mesh.tets[(&face + i)->cell];
+      const int top = *std::max_element(tet.begin(), tet.end());
+      if (top != face.vertices[2]) tops.push_back(top);
+    }
+    std::sort(tops.begin(), tops.end());
+    result->duplicate_tets += static_cast<int>(tops.end() - std::unique(tops.begin(), tops.end()));
   });
   ForEachDistinct(boundary, internal::kTriangleEdges, num_points,
                   [&](const Simplex<2>&, int count) { result->non_manifold_boundary_edges += count != 2; });
