@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -147,6 +148,21 @@ TYPED_TEST(FastSolverTest, TriesStartsUntilTwoAgreeAndNotMoreThanItIsToldTo) {
     if (num_starts == 1) energy_of_one = energy;
   }
   EXPECT_LT(energy, 1.005 * energy_of_one);
+
+  // In a ball few starts end in one field.
+  std::size_t most = 0;
+  constexpr std::size_t kLimit = 18;
+  options.num_starts = static_cast<int>(kLimit);
+  for (const int cells : {4, 6, 8, 10}) {
+    names.clear();
+    SolveFast<l>(GraphOf(MakeBallMesh(cells)), {}, options);
+    EXPECT_TRUE(names.size() % 5 == 0 || names.size() == kLimit)
+        << names.size() << " of " << cells << ": no whole rounds";
+    EXPECT_LE(std::count_if(names.begin(), names.end(), [](const auto& name) { return name[0] == 'c'; }), 2)
+        << "starts from the coarsest graph, one in each degree";
+    most = std::max(most, names.size());
+  }
+  EXPECT_GT(most, 5u);
   options.num_starts = 0;
   EXPECT_THROW(SolveFast<l>(graph, {}, options), std::invalid_argument);
 }

@@ -138,7 +138,8 @@ Start SolveRandom(const std::vector<Level>& levels, std::size_t from, std::size_
 }
 
 // Start number `i` on the graph `level`, in rounds of five: the linear one, three random ones and one from the coarsest
-// graph. Every second is found in the other degree, whose minima are others.
+// graph. Every second is found in the other degree, whose minima are others. From the coarsest graph, where often nothing
+// is left to chance, one in each degree; random ones in their place after that.
 template <int kDegree>
 Start MakeStart(const std::vector<Level>& levels, std::size_t level, int i, std::uint32_t seed, Minimizer* minimizer) {
   constexpr std::uint32_t kSeedsApart = 1000003;
@@ -153,7 +154,7 @@ Start MakeStart(const std::vector<Level>& levels, std::size_t level, int i, std:
     Solve<kDegree>(levels[level], start.name, start.name, minimizer, &field, &start);
     return start;
   }
-  const bool is_coarse = place == kRound - 1 && level + 1 < levels.size();
+  const bool is_coarse = place == kRound - 1 && round < 2 && level + 1 < levels.size();
   const std::size_t from = is_coarse ? levels.size() - 1 : level;
   const std::string name = (is_coarse ? "coarse" : "random") + number;
   if (!is_coarse) seed = 3 * seed + static_cast<std::uint32_t>(place) - 1;
