@@ -17,8 +17,8 @@
 #include "octupole/cost_functions/injectivity_cost.h"
 #include "octupole/cost_functions/map_gradient_cost.h"
 #include "octupole/cost_functions/smoothness_cost.h"
+#include "octupole/energies/field_problem.h"
 #include "octupole/mesh/box_mesh.h"
-#include "octupole/solvers/field_problem.h"
 
 namespace octupole {
 namespace {

@@ -22,14 +22,14 @@
 #include "ball_mesh.h"
 #include "octupole/alignment/aligned_frame.h"
 #include "octupole/alignment/boundary_alignment.h"
+#include "octupole/energies/field_energy.h"
 #include "octupole/field/field_quality.h"
+#include "octupole/minimization/lbfgs.h"
+#include "octupole/minimization/workers.h"
 #include "octupole/readers/tet_mesh_reader.h"
 #include "octupole/solvers/fast_solver.h"
-#include "octupole/solvers/field_energy.h"
 #include "octupole/solvers/field_solver.h"
-#include "octupole/solvers/lbfgs.h"
 #include "octupole/solvers/solver_presets.h"
-#include "octupole/solvers/workers.h"
 
 namespace octupole {
 namespace {

@@ -4,9 +4,9 @@
 // The mesh here is the wall of a pipe, a grid in cylinder coordinates, whose cells are neither tets nor of any type
 // that the library knows. Your own cost pulls the frames towards a direction that winds around the pipe, as fibres do.
 #include <ceres/ceres.h>
+#include <octupole/energies/field_problem.h>
 #include <octupole/field/field_graph.h>
 #include <octupole/frames/frame.h>
-#include <octupole/solvers/field_problem.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>

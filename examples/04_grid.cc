@@ -1,8 +1,8 @@
 // A frame field from a surface alone, without a tet mesh: the solid lies in a grid of cubes, fine along the surface and
 // coarser inside.
 
-#include <octupole/adaptors/surface_grid.h>
-#include <octupole/adaptors/surface_grid_tets.h>
+#include <octupole/grids/surface_grid.h>
+#include <octupole/grids/surface_grid_tets.h>
 #include <octupole/singularities/singular_curves.h>
 #include <octupole/singularities/singular_triangles.h>
 #include <octupole/solvers/fast_solver.h>

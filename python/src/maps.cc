@@ -11,9 +11,9 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "octupole/io/map_writer.h"
+#include "octupole/map_solvers/seamless_map.h"
 #include "octupole/maps/map_obstacles.h"
 #include "octupole/maps/map_quality.h"
-#include "octupole/solvers/seamless_map.h"
 #include "progress.h"
 
 namespace octupole::python {

@@ -30,21 +30,25 @@ ROOMS = {
     "io": ["readers", "maps", "field", "alignment", "singularities"] + SHAPES,
     "view": ["io", "maps", "field", "alignment", "singularities"] + SHAPES,
     "adaptors": ["io", "readers", "field", "alignment", "singularities"] + SHAPES,
+    "grids": ["io", "readers", "field", "alignment", "singularities"] + SHAPES,
     "cost_functions": ["maps", "field", "alignment", "frames"] + MATHEMATICS,
-    "solvers": ["cost_functions", "maps", "field", "alignment", "singularities"] + SHAPES,
-    "distributed": ["solvers", "io", "readers", "field", "alignment", "singularities"] + SHAPES,
+    "minimization": [],
+    "energies": ["minimization", "cost_functions", "field", "alignment", "frames"] + MATHEMATICS,
+    "solvers": ["energies", "minimization", "cost_functions", "field", "alignment"] + SHAPES,
+    "map_solvers": ["minimization", "maps"] + SHAPES,
+    "distributed": ["solvers", "energies", "minimization", "io", "readers", "field", "alignment", "singularities"] + SHAPES,
 }
 
 # Library -> the rooms that may include it; all others are free to use Eigen and the standard library only.
 LIBRARIES = {
-    "ceres": ["cost_functions", "solvers", "distributed"],
+    "ceres": ["cost_functions", "minimization", "energies", "solvers", "map_solvers", "distributed"],
     "gmsh": ["adaptors"],
     "mpi": ["distributed"],
     "OpenMesh": ["adaptors"],
-    "openvdb": ["adaptors"],
+    "openvdb": ["grids"],
     "petsc": ["distributed"],
     "pugixml": ["io", "readers"],
-    "tbb": ["adaptors"],
+    "tbb": ["grids"],
     "zlib": ["io", "readers"],
 }
 

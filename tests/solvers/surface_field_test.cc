@@ -10,13 +10,13 @@
 #include <random>
 
 #include "method_checks.h"
+#include "octupole/energies/field_problem.h"
 #include "octupole/field/cross_field.h"
 #include "octupole/frames/frame.h"
 #include "octupole/mesh/box_mesh.h"
 #include "octupole/mesh/surface_corners.h"
 #include "octupole/singularities/surface_singularities.h"
 #include "octupole/solvers/fast_solver.h"
-#include "octupole/solvers/field_problem.h"
 #include "octupole/solvers/field_solver.h"
 #include "octupole/solvers/solver_presets.h"
 

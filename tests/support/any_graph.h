@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "octupole/alignment/aligned_frame.h"
+#include "octupole/energies/field_problem.h"
 #include "octupole/field/field_graph.h"
 #include "octupole/mesh/box_mesh.h"
-#include "octupole/solvers/field_problem.h"
 #include "random_inputs.h"
 
 namespace octupole {

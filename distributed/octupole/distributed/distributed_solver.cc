@@ -16,10 +16,10 @@
 #include "octupole/distributed/internal/part_alignment.h"
 #include "octupole/distributed/internal/petsc.h"
 #include "octupole/distributed/internal/tao_minimizer.h"
+#include "octupole/energies/field_energy.h"
+#include "octupole/energies/frame_energy.h"
 #include "octupole/harmonics/rotation.h"
 #include "octupole/solvers/fast_solver.h"
-#include "octupole/solvers/field_energy.h"
-#include "octupole/solvers/frame_energy.h"
 
 namespace octupole {
 namespace {

@@ -11,9 +11,9 @@
 #include "octupole/alignment/alignment.h"
 #include "octupole/alignment/interfaces.h"
 #include "octupole/distributed/mesh_part.h"
+#include "octupole/energies/field_problem.h"
 #include "octupole/field/field_graph.h"
 #include "octupole/harmonics/harmonics.h"
-#include "octupole/solvers/field_problem.h"
 #include "octupole/solvers/field_solution.h"
 
 namespace octupole {

@@ -8,12 +8,12 @@
 
 #include "octupole/alignment/aligned_frame.h"
 #include "octupole/cost_functions/cost_weight.h"
+#include "octupole/energies/internal/field_function.h"
+#include "octupole/energies/internal/sweep_graph.h"
 #include "octupole/field/coarse_graph.h"
 #include "octupole/frames/frame.h"
 #include "octupole/harmonics/rotation.h"
-#include "octupole/solvers/internal/field_function.h"
 #include "octupole/solvers/internal/minimizer.h"
-#include "octupole/solvers/internal/sweep_graph.h"
 
 namespace octupole {
 namespace {
@@ -138,8 +138,8 @@ Start SolveRandom(const std::vector<Level>& levels, std::size_t from, std::size_
 }
 
 // Start number `i` on the graph `level`, in rounds of five: the linear one, three random ones and one from the coarsest
-// graph. Every second is found in the other degree, whose minima are others. From the coarsest graph, where often nothing
-// is left to chance, one in each degree; random ones in their place after that.
+// graph. Every second is found in the other degree, whose minima are others. From the coarsest graph, where often
+// nothing is left to chance, one in each degree; random ones in their place after that.
 template <int kDegree>
 Start MakeStart(const std::vector<Level>& levels, std::size_t level, int i, std::uint32_t seed, Minimizer* minimizer) {
   constexpr std::uint32_t kSeedsApart = 1000003;

@@ -3,9 +3,9 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "octupole/energies/field_problem.h"
 #include "octupole/field/field_graph.h"
 #include "octupole/harmonics/harmonics.h"
-#include "octupole/solvers/field_problem.h"
 #include "octupole/solvers/field_solution.h"
 
 namespace octupole {

@@ -9,11 +9,11 @@
 
 #include "octupole/alignment/boundary_alignment.h"
 #include "octupole/alignment/constraints.h"
+#include "octupole/energies/field_problem.h"
 #include "octupole/field/field_graph.h"
 #include "octupole/harmonics/harmonics.h"
 #include "octupole/mesh/tet_mesh.h"
 #include "octupole/mesh/triangle_mesh.h"
-#include "octupole/solvers/field_problem.h"
 #include "octupole/solvers/field_solution.h"
 
 namespace octupole {

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "octupole/alignment/aligned_frame.h"
+#include "octupole/energies/frame_energy.h"
 #include "octupole/field/coarse_graph.h"
 #include "octupole/frames/frame.h"
 #include "octupole/frames/random_rotation.h"
-#include "octupole/solvers/frame_energy.h"
 #include "octupole/solvers/internal/minimizer.h"
 
 namespace octupole {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "octupole/energies/field_energy.h"
+#include "octupole/energies/field_problem.h"
 #include "octupole/field/coarse_graph.h"
-#include "octupole/solvers/field_energy.h"
-#include "octupole/solvers/field_problem.h"
 #include "octupole/solvers/internal/minimizer.h"
 
 namespace octupole {

@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "octupole/energies/field_problem.h"
 #include "octupole/field/coarse_graph.h"
-#include "octupole/solvers/field_problem.h"
 #include "octupole/solvers/internal/minimizer.h"
 
 namespace octupole {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "octupole/distributed/internal/graph_level.h"
+#include "octupole/minimization/workers.h"
 #include "octupole/solvers/field_solution.h"
-#include "octupole/solvers/workers.h"
 
 namespace octupole::internal {
 

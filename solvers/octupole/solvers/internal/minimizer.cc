@@ -3,10 +3,10 @@
 #include <type_traits>
 
 #include "octupole/alignment/aligned_frame.h"
+#include "octupole/energies/internal/field_function.h"
+#include "octupole/energies/internal/frame_function.h"
 #include "octupole/frames/frame.h"
-#include "octupole/solvers/internal/field_function.h"
-#include "octupole/solvers/internal/frame_function.h"
-#include "octupole/solvers/lbfgs.h"
+#include "octupole/minimization/lbfgs.h"
 
 namespace octupole::internal {
 namespace {

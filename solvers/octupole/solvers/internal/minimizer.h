@@ -11,13 +11,13 @@
 #include <utility>
 #include <vector>
 
+#include "octupole/energies/field_problem.h"
+#include "octupole/energies/internal/sweep_graph.h"
 #include "octupole/field/field_graph.h"
 #include "octupole/harmonics/harmonics.h"
-#include "octupole/solvers/field_problem.h"
+#include "octupole/minimization/internal/minimize_lbfgs.h"
+#include "octupole/minimization/workers.h"
 #include "octupole/solvers/field_solution.h"
-#include "octupole/solvers/internal/minimize_lbfgs.h"
-#include "octupole/solvers/internal/sweep_graph.h"
-#include "octupole/solvers/workers.h"
 
 // The steps that the methods are made of.
 namespace octupole::internal {

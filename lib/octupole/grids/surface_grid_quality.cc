@@ -1,0 +1,65 @@
+#include "octupole/grids/surface_grid_quality.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "octupole/frames/frame.h"
+#include "octupole/grids/internal/grid_alignment.h"
+#include "octupole/grids/internal/grid_interpolation.h"
+#include "octupole/mesh/surface_corners.h"
+
+namespace octupole {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// Samples on the surface are at most this many cells apart.
+constexpr double kSpacing = 1;
+
+}  // namespace
+
+GridQuality MeasureGridField(const TriangleMesh& surface, const SurfaceGrid& grid,
+                             const std::vector<Matrix3d>& frames) {
+  if (frames.size() != grid.points.size()) {
+    throw std::invalid_argument("MeasureGridField: " + std::to_string(frames.size()) + " frames for " +
+                                std::to_string(grid.points.size()) + " nodes");
+  }
+  GridQuality quality;
+  for (const auto& [a, b, weight] : grid.graph.edges) {
+    quality.energy3 += weight * FrameDifference<3>(frames[a], frames[b]);
+    quality.energy4 += weight * FrameDifference<4>(frames[a], frames[b]);
+  }
+  const internal::CellFinder finder(grid);
+  double sum = 0;
+  for (const auto& triangle : surface.triangles) {
+    const Vector3d normal = TriangleNormal(surface.points, triangle);
+    if (normal.isZero(0)) continue;
+    std::array<Vector3d, 3> corners;
+    for (int i = 0; i < 3; ++i) corners[i] = surface.points[triangle[i]];
+    internal::SampleTriangle(corners, kSpacing * grid.size, [&](const Vector3d& x, double) {
+      const int cell = finder.Find(x);
+      if (cell < 0) return;
+      const std::array<int, 8>& nodes = grid.cells[cell];
+      const auto may_be_smooth = [&](int v) { return grid.graph.alignments[v].kind() != AlignmentKind::kFrame; };
+      const auto is_aligned = [&](int v) { return grid.graph.alignments[v].kind() == AlignmentKind::kAxis; };
+      if (!std::all_of(nodes.begin(), nodes.end(), may_be_smooth)) return;
+      if (std::none_of(nodes.begin(), nodes.end(), is_aligned)) return;
+      const Matrix3d frame = internal::InterpolateFrames(grid, frames, cell, x);
+      const double cosine = (frame.transpose() * normal).cwiseAbs().maxCoeff();
+      const double degrees = std::acos(std::min(1., cosine)) * 180 / M_PI;
+      sum += degrees * degrees;
+      quality.boundary_max_deg = std::max(quality.boundary_max_deg, degrees);
+      ++quality.boundary_samples;
+    });
+  }
+  if (quality.boundary_samples > 0) {
+    quality.boundary_rms_deg = std::sqrt(sum / static_cast<double>(quality.boundary_samples));
+  }
+  return quality;
+}
+
+}  // namespace octupole
