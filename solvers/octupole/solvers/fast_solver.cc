@@ -223,6 +223,26 @@ Start ChooseStart(const std::vector<Level>& levels, const MinimizerOptions& opti
   return std::move(starts[0]);
 }
 
+// From a start on the graph `level` to the finest: the field there, and in `start` its frames.
+template <int kDegree>
+std::vector<Harmonic<kDegree>> SolveOnFinest(const std::vector<Level>& levels, std::size_t level, Minimizer* minimizer,
+                                             Start* start) {
+  std::vector<Harmonic<kDegree>> field;
+  if (level == 0) {
+    // Further than it takes to compare; then the field next to them.
+    Polish(levels[0], "frames", minimizer, start);
+    field = internal::HarmonicsOf<kDegree>(start->frames);
+    minimizer->BeginStep("field");
+    MinimizeField<kDegree>(levels[0].graph, levels[0].weights, kFieldTolerance, minimizer, &field);
+    return field;
+  }
+  field = internal::HarmonicsOf<kDegree>(ProlongateFrames(levels, level - 1, start->frames));
+  minimizer->BeginStep("level");
+  Refine<kDegree>(levels, level - 1, 0, minimizer, &field);
+  Solve<kDegree>(levels[0], "field", "frames", minimizer, &field, start);
+  return field;
+}
+
 // Of the coefficients, in doubles.
 template <int kDegree>
 double EnergyOf(const SweepGraph& graph, const EnergyWeights& weights, const std::vector<Harmonic<kDegree>>& field,
@@ -266,21 +286,7 @@ FieldSolution<kDegree> SolveFast(const FieldGraph& graph, const EnergyWeights& w
   std::size_t level = 0;
   Start start = ChooseStart<kDegree>(levels, options, &minimizer, &level);
   std::vector<Harmonic<kDegree>> field;
-  if (minimizer.termination() == ceres::FAILURE) {
-    // There is nothing to go on from.
-  } else if (level == 0) {
-    // Further than it takes to compare; then the field next to them.
-    Polish(levels[0], "frames", &minimizer, &start);
-    field = internal::HarmonicsOf<kDegree>(start.frames);
-    minimizer.BeginStep("field");
-    MinimizeField<kDegree>(levels[0].graph, weights, kFieldTolerance, &minimizer, &field);
-  } else {
-    --level;
-    field = internal::HarmonicsOf<kDegree>(ProlongateFrames(levels, level, start.frames));
-    minimizer.BeginStep("level");
-    Refine<kDegree>(levels, level, 0, &minimizer, &field);
-    Solve<kDegree>(levels[0], "field", "frames", &minimizer, &field, &start);
-  }
+  if (minimizer.termination() != ceres::FAILURE) field = SolveOnFinest<kDegree>(levels, level, &minimizer, &start);
   return MakeSolution<kDegree>(graph, levels[0], order, field, start.frames, &minimizer);
 }
 
