@@ -137,18 +137,18 @@ void WriteArray(std::ostream& out, std::string_view type, const std::string& nam
 }
 
 void WriteConnectivity(std::ostream& out, const std::vector<VtuCells>& cells) {
-  std::vector<std::int32_t> all;
-  const auto write = [&](const std::int32_t* vertices, std::size_t count) {
-    WriteArray(out, "Int32", "connectivity", 1, vertices, count * sizeof(*vertices));
-  };
-  if (cells.size() == 1) {  // as is, for they may be many
-    write(cells[0].vertices, SizeOf(cells[0].type) * cells[0].count);
+  constexpr const char* kType = "Int32";
+  constexpr const char* kName = "connectivity";
+  if (cells.size() == 1) {  // as they are, for they may be many
+    const std::size_t count = SizeOf(cells[0].type) * cells[0].count;
+    WriteArray(out, kType, kName, 1, cells[0].vertices, count * sizeof(std::int32_t));
     return;
   }
+  std::vector<std::int32_t> all;
   for (const VtuCells& block : cells) {
     all.insert(all.end(), block.vertices, block.vertices + SizeOf(block.type) * block.count);
   }
-  write(all.data(), all.size());
+  WriteArray(out, kType, kName, all);
 }
 
 void WriteCells(std::ostream& out, const std::vector<VtuCells>& cells) {
