@@ -7,7 +7,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -57,10 +56,7 @@ struct GridArguments {
 
 // A surface, or the boundary of a tet mesh.
 TriangleMesh LoadSurface(const std::filesystem::path& path, std::vector<std::string>* warnings) {
-  std::string ending = path.extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  static const std::set<std::string> kSurfaces = {".obj", ".off", ".stl", ".ply"};
-  return kSurfaces.count(ending) > 0 ? ReadTriangleMesh(path, warnings) : BoundarySurface(ReadTetMesh(path, warnings));
+  return IsSurfaceFile(path) ? ReadTriangleMesh(path, warnings) : BoundarySurface(ReadTetMesh(path, warnings));
 }
 
 void PrintSummary(const GridArguments& arguments, const nlohmann::ordered_json& report) {
