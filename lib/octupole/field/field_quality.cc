@@ -6,7 +6,6 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "octupole/field/field_graph.h"
 #include "octupole/frames/frame.h"
 #include "octupole/mesh/mesh_topology.h"
 #include "octupole/mesh/surface_corners.h"
@@ -78,14 +77,17 @@ FieldQuality MeasureField(const TetMesh& mesh, const std::vector<Eigen::Matrix3d
   return quality;
 }
 
+template <int kDegree>
+double SmoothnessOfFrames(const std::vector<WeightedEdge>& edges, const std::vector<Eigen::Matrix3d>& frames) {
+  double energy = 0;
+  for (const auto& [a, b, weight] : edges) energy += weight * FrameDifference<kDegree>(frames[a], frames[b]);
+  return energy;
+}
+
 double FiniteElementEnergy(const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& frames) {
   CheckFrames("FiniteElementEnergy", mesh.points, frames);
   const std::vector<Alignment> none(mesh.points.size());
-  double energy = 0;
-  for (const auto& [a, b, weight] : MakeFieldGraph(mesh, none, EdgeWeights::kFiniteElement).edges) {
-    energy += weight * FrameDifference<4>(frames[a], frames[b]);
-  }
-  return energy;
+  return SmoothnessOfFrames<4>(MakeFieldGraph(mesh, none, EdgeWeights::kFiniteElement).edges, frames);
 }
 
 std::vector<double> MeanDifferences(const std::vector<std::array<int, 2>>& edges,
@@ -102,5 +104,8 @@ std::vector<double> MeanDifferences(const std::vector<std::array<int, 2>>& edges
   for (std::size_t v = 0; v < means.size(); ++v) means[v] /= std::max(counts[v], 1);
   return means;
 }
+
+template double SmoothnessOfFrames<3>(const std::vector<WeightedEdge>&, const std::vector<Eigen::Matrix3d>&);
+template double SmoothnessOfFrames<4>(const std::vector<WeightedEdge>&, const std::vector<Eigen::Matrix3d>&);
 
 }  // namespace octupole

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "octupole/field/field_graph.h"
 #include "octupole/mesh/tet_mesh.h"
 #include "octupole/singularities/singular_triangles.h"
 
@@ -54,6 +55,10 @@ FieldQuality MeasureField(const TetMesh& mesh, const std::vector<Eigen::Matrix3d
 FieldQuality MeasureField(const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& frames,
                           const std::vector<SingularTriangle>& singular_triangles,
                           const std::vector<std::array<int, 3>>& boundary_triangles);
+
+/// The sum over edges of weight times FrameDifference<kDegree>. \param edges between indices into `frames`.
+template <int kDegree>
+double SmoothnessOfFrames(const std::vector<WeightedEdge>& edges, const std::vector<Eigen::Matrix3d>& frames);
 
 /// The sum over the mesh's edges of EdgeWeights::kFiniteElement times FrameDifference<4>, in units of length:
 /// comparable across meshes of one shape, but for the cores of singular curves, whose energy grows with the logarithm

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "octupole/frames/frame.h"
+#include "octupole/field/field_quality.h"
 #include "octupole/grids/internal/grid_alignment.h"
 #include "octupole/grids/internal/grid_interpolation.h"
 #include "octupole/mesh/surface_corners.h"
@@ -29,10 +29,8 @@ GridQuality MeasureGridField(const TriangleMesh& surface, const SurfaceGrid& gri
                                 std::to_string(grid.points.size()) + " nodes");
   }
   GridQuality quality;
-  for (const auto& [a, b, weight] : grid.graph.edges) {
-    quality.energy3 += weight * FrameDifference<3>(frames[a], frames[b]);
-    quality.energy4 += weight * FrameDifference<4>(frames[a], frames[b]);
-  }
+  quality.energy3 = SmoothnessOfFrames<3>(grid.graph.edges, frames);
+  quality.energy4 = SmoothnessOfFrames<4>(grid.graph.edges, frames);
   const internal::CellFinder finder(grid);
   double sum = 0;
   for (const auto& triangle : surface.triangles) {

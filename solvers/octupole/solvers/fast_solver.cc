@@ -11,6 +11,7 @@
 #include "octupole/energies/internal/field_function.h"
 #include "octupole/energies/internal/sweep_graph.h"
 #include "octupole/field/coarse_graph.h"
+#include "octupole/field/field_quality.h"
 #include "octupole/frames/frame.h"
 #include "octupole/harmonics/rotation.h"
 #include "octupole/solvers/internal/minimizer.h"
@@ -328,9 +329,7 @@ FieldSolution<kDegree> PolishField(const FieldGraph& graph, const EnergyWeights&
   FieldSolution<kDegree> result;
   static_cast<FrameSolution&>(result) =
       minimizer.MakeSolution(graph, order, polished, 0, SizeOfProblem(graph, kUnknownsOfKind<kDegree>));
-  for (const auto& [a, b, weight] : graph.edges) {
-    result.energy += weight * FrameDifference<kDegree>(result.frames[a], result.frames[b]);
-  }
+  result.energy = SmoothnessOfFrames<kDegree>(graph.edges, result.frames);
   result.coefficients = internal::HarmonicsOf<kDegree>(result.frames);
   return result;
 }
