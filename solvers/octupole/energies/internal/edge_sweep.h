@@ -8,6 +8,17 @@
 
 namespace octupole::internal {
 
+/// Coefficient by coefficient the rows row_of(0), row_of(1) ... of as many vertices as there are lanes, each
+/// kNumLanes vectors long: one vertex per lane.
+template <int kNumLanes, typename Scalar, typename RowOf>
+OCTUPOLE_INLINE void LanesOfRows(const RowOf& row_of, Lanes<Scalar>* lanes) {
+  constexpr int kStep = kLanes<Scalar>;
+  for (int j = 0; j < kNumLanes; ++j) {
+    for (int k = 0; k < kStep; ++k) lanes[kStep * j + k] = LanesAt(row_of(k) + kStep * j);
+    TransposeLanes(lanes + kStep * j);
+  }
+}
+
 // The edges' part of an energy, gathered at one vertex: the inner loop of all sweeps.
 //
 // AddEdges writes half the gradient of the edges' energy at vertex v, one row, and returns v's share of half that

@@ -117,14 +117,8 @@ OCTUPOLE_INLINE double FieldFunction<kDegree, Scalar>::SweepRange(std::size_t be
     alignas(32) Scalar gradients[kStep][kStep * kNumLanes];
     for (int k = 0; k < kStep; ++k) energy += AddEdges<kWeighted>(graph_, rows_.data(), first + k, gradients[k]);
     Lanes<Scalar> h[kStep * kNumLanes], sums[kStep * kNumLanes];
-    for (int j = 0; j < kNumLanes; ++j) {
-      for (int k = 0; k < kStep; ++k) {
-        h[kStep * j + k] = LanesAt(rows_[first + k].values + kStep * j);
-        sums[kStep * j + k] = LanesAt(gradients[k] + kStep * j);
-      }
-      TransposeLanes(h + kStep * j);
-      TransposeLanes(sums + kStep * j);
-    }
+    LanesOfRows<kNumLanes, Scalar>([&](int k) OCTUPOLE_INLINE_LAMBDA { return rows_[first + k].values; }, h);
+    LanesOfRows<kNumLanes, Scalar>([&](int k) OCTUPOLE_INLINE_LAMBDA { return gradients[k]; }, sums);
     energy += AddPenalties(first, h, sums);
     if (gradient == nullptr) continue;
     for (int j = 0; j < kNumLanes; ++j) {

@@ -181,14 +181,8 @@ OCTUPOLE_INLINE double FrameFunction<Scalar>::SweepRange(const Scalar* parameter
     }
     if (gradient == nullptr) continue;
     Lanes<Scalar> h[kStep * kNumLanes], sums[kStep * kNumLanes];
-    for (int j = 0; j < kNumLanes; ++j) {
-      for (int k = 0; k < kStep; ++k) {
-        h[kStep * j + k] = LanesAt(rows_[first + k].values + kStep * j);
-        sums[kStep * j + k] = LanesAt(gradients[k] + kStep * j);
-      }
-      TransposeLanes(h + kStep * j);
-      TransposeLanes(sums + kStep * j);
-    }
+    LanesOfRows<kNumLanes, Scalar>([&](int k) OCTUPOLE_INLINE_LAMBDA { return rows_[first + k].values; }, h);
+    LanesOfRows<kNumLanes, Scalar>([&](int k) OCTUPOLE_INLINE_LAMBDA { return gradients[k]; }, sums);
     // The derivatives by turns about the coordinate axes, then about the frame's own.
     Lanes<Scalar> torque[3], turned[3], r[3];
     const auto add_torque = [&](int axis, const auto& generator) OCTUPOLE_INLINE_LAMBDA {
