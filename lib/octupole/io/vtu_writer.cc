@@ -14,24 +14,25 @@
 namespace octupole {
 namespace {
 
-void WriteBase64(std::ostream& out, const void* data, std::size_t size) {
+std::string Base64Of(const unsigned char* bytes, std::size_t size) {
   constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text(4 * ((size + 2) / 3), '=');
+  char* next = text.data();
+  for (std::size_t i = 0; i < size; i += 3) {
+    const std::size_t num_bytes = std::min<std::size_t>(3, size - i);
+    std::uint32_t bits = 0;
+    for (std::size_t k = 0; k < 3; ++k) bits = bits << 8 | (k < num_bytes ? bytes[i + k] : 0u);
+    for (std::size_t k = 0; k <= num_bytes; ++k) next[k] = kDigits[bits >> (18 - 6 * k) & 63];
+    next += 4;
+  }
+  return text;
+}
+
+// In pieces, so that the text of a large array never is in memory as a whole.
+void WriteBase64(std::ostream& out, const void* data, std::size_t size) {
   constexpr std::size_t kPiece = 3 << 14;
   const auto* bytes = static_cast<const unsigned char*>(data);
-  std::string text;
-  for (std::size_t begin = 0; begin < size; begin += kPiece) {
-    const std::size_t end = std::min(size, begin + kPiece);
-    text.assign(4 * ((end - begin + 2) / 3), '=');
-    char* next = text.data();
-    for (std::size_t i = begin; i < end; i += 3) {
-      const std::size_t num_bytes = std::min<std::size_t>(3, end - i);
-      std::uint32_t bits = 0;
-      for (std::size_t k = 0; k < 3; ++k) bits = bits << 8 | (k < num_bytes ? bytes[i + k] : 0u);
-      for (std::size_t k = 0; k <= num_bytes; ++k) next[k] = kDigits[bits >> (18 - 6 * k) & 63];
-      next += 4;
-    }
-    out << text;
-  }
+  for (std::size_t i = 0; i < size; i += kPiece) out << Base64Of(bytes + i, std::min(kPiece, size - i));
 }
 
 std::string XmlEscaped(const std::string& text) {
@@ -151,11 +152,11 @@ void WriteConnectivity(std::ostream& out, const std::vector<VtuCells>& cells) {
   WriteArray(out, kType, kName, all);
 }
 
-void WriteCells(std::ostream& out, const std::vector<VtuCells>& cells) {
+void WriteCells(std::ostream& out, const std::vector<VtuCells>& cells, std::size_t num_cells) {
   std::vector<std::int64_t> offsets;
   std::vector<std::uint8_t> types;
-  offsets.reserve(CountCells(cells));
-  types.reserve(offsets.capacity());
+  offsets.reserve(num_cells);
+  types.reserve(num_cells);
   for (const VtuCells& block : cells) {
     const auto size = static_cast<std::int64_t>(SizeOf(block.type));
     for (std::size_t c = 0; c < block.count; ++c) offsets.push_back((offsets.empty() ? 0 : offsets.back()) + size);
@@ -182,7 +183,7 @@ void WriteContent(std::ostream& out, const std::vector<Eigen::Vector3d>& points,
       << "\">\n<Points>\n";
   WriteArray(out, "Float64", "Points", 3, points.data(), points.size() * sizeof(Eigen::Vector3d));
   out << "</Points>\n";
-  WriteCells(out, cells);
+  WriteCells(out, cells, num_cells);
   out << "<PointData>\n";
   for (const VtuArray& array : point_data) WriteArray(out, array, points.size());
   out << "</PointData>\n<CellData>\n";

@@ -94,8 +94,7 @@ void InspectNeighbours(const TetMesh& mesh, MeshInspection* result) {
       boundary.push_back(face.vertices);
       return;
     }
-    // Tetrahedra that repeat another share their three smallest vertices, and the fourth above them. Equal faces lie
-    // one behind the other.
+    // Tetrahedra that repeat another share their three smallest vertices, and the fourth above them.
     tops.clear();
     for (int i = 0; i < count; ++i) {
       const std::array<int, 4>& tet = mesh.tets[(&face + i)->cell];

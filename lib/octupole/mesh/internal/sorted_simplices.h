@@ -70,7 +70,8 @@ bool AreSame(const Simplex<N>& a, const Simplex<N>& b) {
   return true;
 }
 
-/// Calls visit(first simplex, number of equal ones) for each distinct simplex of a sorted list.
+/// Calls visit(first simplex, number of equal ones) for each distinct simplex of a sorted list. The equal ones follow
+/// the first in memory.
 template <std::size_t N, typename Visit>
 void ForEachDistinct(const std::vector<Simplex<N>>& sorted, const Visit& visit) {
   for (std::size_t begin = 0, end = 0; begin < sorted.size(); begin = end) {
