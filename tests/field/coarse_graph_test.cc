@@ -40,7 +40,19 @@ TEST(Reorder, RenumbersVertices) {
   EXPECT_EQ(reordered.alignments[1].kind(), AlignmentKind::kAxis);
 }
 
-TEST(CoarsenGraph, MakesConnectedClustersAndAddsTheirEdgesUp) {
+// What a linear function costs is the same whatever cubes a grid is cut into: n^3 cubes of m^3 vertices have n - 1 layers
+// between them of (n m)^2 edges, across which the function changes by m.
+TEST(WeightBetweenClusters, KeepsTheEnergyOfLinearFunctions) {
+  for (const int m : {1, 2, 5}) {
+    const std::size_t size = m * m * m;
+    const double across_a_face = WeightBetweenClusters(m * m, size, size) * m * m;
+    EXPECT_NEAR(across_a_face, size, 1e-12 * size) << m;  // as much as its vertices have with edges of weight 1
+  }
+  // Where a large cube meets a small one, the middles are as far apart as both halves together.
+  EXPECT_NEAR(WeightBetweenClusters(1, 27, 1), 1. / 2, 1e-12);
+}
+
+TEST(CoarsenGraph, MakesConnectedClustersAndWeighsTheirEdges) {
   FieldGraph graph = Box();
   std::mt19937 generator(1);
   for (WeightedEdge& edge : graph.edges) edge.weight = 1 + RandomDirection(&generator).x() / 2;
@@ -49,6 +61,9 @@ TEST(CoarsenGraph, MakesConnectedClustersAndAddsTheirEdgesUp) {
   const std::size_t num_clusters = coarse.graph.num_vertices();
   EXPECT_GT(num_clusters, graph.num_vertices() / 14);
   EXPECT_LT(num_clusters, graph.num_vertices() / 5);
+
+  std::vector<std::size_t> size(num_clusters, 0);
+  for (const int cluster : coarse.cluster_of) ++size[cluster];
 
   // Merging along the edges within clusters leaves one tree per cluster.
   std::vector<int> parent(graph.num_vertices());
@@ -62,7 +77,8 @@ TEST(CoarsenGraph, MakesConnectedClustersAndAddsTheirEdgesUp) {
     if (coarse.cluster_of[edge.a] == coarse.cluster_of[edge.b]) {
       parent[root(edge.a)] = root(edge.b);
     } else {
-      weight_between += edge.weight;
+      weight_between +=
+          WeightBetweenClusters(edge.weight, size[coarse.cluster_of[edge.a]], size[coarse.cluster_of[edge.b]]);
     }
   }
   std::size_t num_trees = 0;

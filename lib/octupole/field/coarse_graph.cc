@@ -152,6 +152,10 @@ FieldGraph Reorder(const FieldGraph& graph, const std::vector<int>& order) {
   return result;
 }
 
+double WeightBetweenClusters(double sum_of_weights, std::size_t a, std::size_t b) {
+  return 2 * sum_of_weights / (std::cbrt(static_cast<double>(a)) + std::cbrt(static_cast<double>(b)));
+}
+
 CoarseGraph CoarsenGraph(const FieldGraph& graph) {
   CheckFieldGraph(graph);
   const int num_vertices = static_cast<int>(graph.num_vertices());
@@ -163,7 +167,7 @@ CoarseGraph CoarsenGraph(const FieldGraph& graph) {
   std::vector<std::vector<int>> members(num_clusters);
   for (int v = 0; v < num_vertices; ++v) members[coarse.cluster_of[v]].push_back(v);
 
-  // The weights between one cluster and those of higher number, gathered in a sparse accumulator.
+  // The sums of weights between one cluster and those of higher number, gathered in a sparse accumulator.
   std::vector<double> weight_to(num_clusters, 0);
   std::vector<int> touched;
   for (int cluster = 0; cluster < num_clusters; ++cluster) {
@@ -177,7 +181,8 @@ CoarseGraph CoarsenGraph(const FieldGraph& graph) {
       }
     }
     for (const int other : touched) {
-      coarse.graph.edges.push_back({cluster, other, weight_to[other]});
+      const double weight = WeightBetweenClusters(weight_to[other], members[cluster].size(), members[other].size());
+      coarse.graph.edges.push_back({cluster, other, weight});
       weight_to[other] = 0;
     }
     coarse.graph.alignments.push_back(CommonAlignment(graph, members[cluster]));

@@ -22,21 +22,40 @@ FieldGraph OwnedGraph(const FieldGraph& graph, std::size_t num_owned) {
   return owned;
 }
 
+// All vertices in breadth-first order, and then those without edges.
+std::vector<int> OrderOfAll(const FieldGraph& graph) {
+  std::vector<int> order = BreadthFirstOrder(graph);
+  std::vector<bool> is_ordered(graph.num_vertices(), false);
+  for (const int v : order) is_ordered[v] = true;
+  for (int v = 0; v < static_cast<int>(graph.num_vertices()); ++v) {
+    if (!is_ordered[v]) order.push_back(v);
+  }
+  return order;
+}
+
 // The owned vertices in the order of GraphLevel, and how many of them touch no ghost.
 std::pair<std::vector<int>, std::size_t> SweepOrder(const FieldGraph& graph, std::size_t num_owned) {
   const auto end = static_cast<int>(num_owned);
-  std::vector<bool> touches_ghost(graph.num_vertices(), false), is_ordered(num_owned, false);
+  std::vector<bool> touches_ghost(graph.num_vertices(), false);
   for (const WeightedEdge& edge : graph.edges) {
     if (edge.b >= end) touches_ghost[edge.a] = true;
     if (edge.a >= end) touches_ghost[edge.b] = true;
   }
-  std::vector<int> order = BreadthFirstOrder(OwnedGraph(graph, num_owned));
-  for (const int v : order) is_ordered[v] = true;
-  for (int v = 0; v < end; ++v) {
-    if (!is_ordered[v]) order.push_back(v);
-  }
+  std::vector<int> order = OrderOfAll(OwnedGraph(graph, num_owned));
   const auto touching = std::stable_partition(order.begin(), order.end(), [&](int v) { return !touches_ghost[v]; });
   return {order, touching - order.begin()};
+}
+
+// CoarsenGraph in breadth-first order: in that of GraphLevel the vertices at the borders of parts would come last, and find
+// no neighbours left to form clusters with.
+CoarseGraph CoarsenOwned(const GraphLevel& level) {
+  const FieldGraph owned = OwnedGraph(level.graph, level.num_owned);
+  const std::vector<int> order = OrderOfAll(owned);
+  CoarseGraph coarse = CoarsenGraph(Reorder(owned, order));
+  std::vector<int> cluster_of(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) cluster_of[order[i]] = coarse.cluster_of[i];
+  coarse.cluster_of = std::move(cluster_of);
+  return coarse;
 }
 
 void CountThrough(GraphLevel* level) {
@@ -150,14 +169,19 @@ GraphLevel MakeLevel(MPI_Comm comm, const FieldGraph& graph, std::size_t num_own
 CoarseLevel CoarsenLevel(const GraphLevel& fine) {
   CoarseLevel coarse;
   CoarseGraph clusters;
-  DoTogether(fine.comm, [&] { clusters = CoarsenGraph(OwnedGraph(fine.graph, fine.num_owned)); });
+  DoTogether(fine.comm, [&] { clusters = CoarsenOwned(fine); });
   const auto end = static_cast<int>(fine.num_owned);
   const auto num_clusters = static_cast<int>(clusters.graph.num_vertices());
 
-  // The clusters of the ghosts, numbered after those of this rank.
+  // The clusters of the ghosts, numbered after those of this rank, and of how many vertices each vertex's cluster is.
   std::vector<int> cluster_of = clusters.cluster_of;
+  std::vector<int> size(num_clusters, 0), size_of;
+  for (const int cluster : cluster_of) ++size[cluster];
+  for (const int cluster : cluster_of) size_of.push_back(size[cluster]);
   cluster_of.resize(fine.graph.num_vertices());
+  size_of.resize(fine.graph.num_vertices());
   fine.halo->Update(&cluster_of);
+  fine.halo->Update(&size_of);
   const auto source_of = [&](std::size_t i) { return std::pair(fine.ghosts[i].rank, cluster_of[end + i]); };
   std::vector<std::pair<int, int>> sources;
   for (std::size_t i = 0; i < fine.ghosts.size(); ++i) sources.push_back(source_of(i));
@@ -176,7 +200,7 @@ CoarseLevel CoarsenLevel(const GraphLevel& fine) {
   for (const WeightedEdge& edge : fine.graph.edges) {
     if (std::max(edge.a, edge.b) < end) continue;
     const auto [a, b] = std::minmax(cluster_of[edge.a], cluster_of[edge.b]);
-    edges.push_back({a, b, edge.weight});
+    edges.push_back({a, b, WeightBetweenClusters(edge.weight, size_of[edge.a], size_of[edge.b])});
   }
   std::stable_sort(edges.begin(), edges.end(), [](const WeightedEdge& e, const WeightedEdge& f) {
     return std::tie(e.a, e.b) < std::tie(f.a, f.b);
