@@ -40,8 +40,8 @@ TEST(Reorder, RenumbersVertices) {
   EXPECT_EQ(reordered.alignments[1].kind(), AlignmentKind::kAxis);
 }
 
-// What a linear function costs is the same whatever cubes a grid is cut into: n^3 cubes of m^3 vertices have n - 1 layers
-// between them of (n m)^2 edges, across which the function changes by m.
+// What a linear function costs is the same whatever cubes a grid is cut into: n^3 cubes of m^3 vertices have n - 1
+// layers between them of (n m)^2 edges, across which the function changes by m.
 TEST(WeightBetweenClusters, KeepsTheEnergyOfLinearFunctions) {
   for (const int m : {1, 2, 5}) {
     const std::size_t size = m * m * m;

@@ -32,8 +32,8 @@ double WeightBetweenClusters(double sum_of_weights, std::size_t a, std::size_t b
 /// is left joins the cluster that it is tied to most, or is one of its own. Edges of weight 0 tie nothing. Clusters are
 /// numbered in the order of their first vertices.
 ///
-/// Edges between clusters are weighed by WeightBetweenClusters. A cluster is aligned as its vertices: with the frame, or
-/// else the axis, among theirs that agrees best with the others.
+/// Edges between clusters are weighed by WeightBetweenClusters. A cluster is aligned as its vertices: with the frame,
+/// or else the axis, among theirs that agrees best with the others.
 ///
 /// \throw std::invalid_argument when the graph is malformed (see CheckFieldGraph).
 CoarseGraph CoarsenGraph(const FieldGraph& graph);

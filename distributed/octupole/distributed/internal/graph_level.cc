@@ -46,8 +46,8 @@ std::pair<std::vector<int>, std::size_t> SweepOrder(const FieldGraph& graph, std
   return {order, touching - order.begin()};
 }
 
-// CoarsenGraph in breadth-first order: in that of GraphLevel the vertices at the borders of parts would come last, and find
-// no neighbours left to form clusters with.
+// CoarsenGraph in breadth-first order: in that of GraphLevel the vertices at the borders of parts would come last, and
+// find no neighbours left to form clusters with.
 CoarseGraph CoarsenOwned(const GraphLevel& level) {
   const FieldGraph owned = OwnedGraph(level.graph, level.num_owned);
   const std::vector<int> order = OrderOfAll(owned);
