@@ -71,7 +71,7 @@ TYPED_TEST_SUITE(SolveDistributedTest, Degrees);
 
 TYPED_TEST(SolveDistributedTest, FindsAFieldAsGoodAsOnOneMachine) {
   constexpr int kDegree = TypeParam::value;
-  const TetMesh whole = MakeBallMesh(10);
+  const TetMesh whole = MakeBallMesh(12);
   const MeshPart part = PartOf(whole);
   const auto field = SolveDistributed<kDegree>(MPI_COMM_WORLD, part, WithLevels<kDegree>());
   EXPECT_EQ(field.termination, ceres::CONVERGENCE);
@@ -82,7 +82,7 @@ TYPED_TEST(SolveDistributedTest, FindsAFieldAsGoodAsOnOneMachine) {
   ExpectSameQuality(quality, MeasureField(whole, frames));
   const Field<kDegree> expected = SolveField<kDegree>(whole);
   // Local minima are some percent apart on a mesh as coarse as this.
-  EXPECT_LT(quality.energy4, 1.05 * MeasureField(whole, expected.frames).energy4);
+  EXPECT_LT(quality.energy4, 1.03 * MeasureField(whole, expected.frames).energy4);
   EXPECT_EQ(field.size.unknowns, expected.size.unknowns);
 
   for (std::size_t v = 0; v < part.numbers.size(); ++v) {
