@@ -69,9 +69,9 @@ Field<kDegree> SolveOnGridsUnlocked(const GridOptions& grid_options, const Solve
   return field;
 }
 
-GridFieldPointer Solve(const std::shared_ptr<SurfaceMesh>& surface, std::optional<int> resolution,
-                       std::optional<double> size, int levels, const std::string& repair,
-                       const SolveArguments& arguments, const py::object& callback) {
+GridFieldPointer SolveGrid(const std::shared_ptr<SurfaceMesh>& surface, std::optional<int> resolution,
+                           std::optional<double> size, int levels, const std::string& repair,
+                           const SolveArguments& arguments, const py::object& callback) {
   if (resolution && size) throw std::invalid_argument("solve_grid: either resolution or size, not both");
   GridOptions options;
   options.size = size ? *size : SizeForResolution(*surface, resolution.value_or(64));
@@ -99,7 +99,7 @@ py::tuple Tets(const GridField& field) {
   return py::make_tuple(std::make_shared<TetMesh>(std::move(tets.mesh)), ArrayOf(std::move(tets.frames)));
 }
 
-py::tuple Sample(GridField& field, const py::object& points) {
+py::tuple SampleGrid(GridField& field, const py::object& points) {
   const std::vector<Eigen::Vector3d> where = PointsFrom(points, "points");
   if (!field.sampler) {
     field.sampler = Unlocked([&] { return std::make_shared<const GridSampler>(field.grid, field.frames()); });
@@ -114,13 +114,13 @@ void WriteFieldOf(const std::filesystem::path& path, const SurfaceGrid& grid, co
   WriteGridField<kDegree>(path, grid, field.coefficients, field.frames);
 }
 
-void Write(const GridField& field, const std::filesystem::path& path) {
+void WriteGrid(const GridField& field, const std::filesystem::path& path) {
   WithFile([&] { std::visit([&](const auto& f) { WriteFieldOf(path, field.grid, f); }, field.field); });
 }
 
 // A property that views a member of the grid.
 template <typename Element>
-auto View(std::vector<Element> SurfaceGrid::*member) {
+auto ViewOfGrid(std::vector<Element> SurfaceGrid::*member) {
   return py::cpp_function(
       [member](const py::object& self) { return ViewOf(self.cast<const GridField&>().grid.*member, self); });
 }
@@ -161,9 +161,9 @@ iterations, seconds, unknowns and termination are those of the finest grid.)")
       .def_property_readonly(
           "size", [](const GridField& field) { return field.grid.size; },
           "edge length of the finest cells, in the unit of the points")
-      .def_property_readonly("nodes", View(&SurfaceGrid::points), "(n, 3) float64: coordinates")
+      .def_property_readonly("nodes", ViewOfGrid(&SurfaceGrid::points), "(n, 3) float64: coordinates")
       .def_property_readonly(
-          "cells", View(&SurfaceGrid::cells),
+          "cells", ViewOfGrid(&SurfaceGrid::cells),
           "(m, 8) int32: nodes in VTK's order, around the face of lowest z, then around that of highest z")
       .def_property_readonly(
           "level",
@@ -175,7 +175,7 @@ iterations, seconds, unknowns and termination are those of the finest grid.)")
           "hanging_nodes", &HangingNodesOf,
           "(k, 3) int32: {v, a, b}, v being the node in the middle of a and b, which are the ends of "
           "an edge of a coarser cell, or of the diagonal of one of its faces")
-      .def_property_readonly("distance", View(&SurfaceGrid::distances),
+      .def_property_readonly("distance", ViewOfGrid(&SurfaceGrid::distances),
                              "(n,) float32: of each node to the surface, in the unit of the points, negative inside; "
                              "deeper than three widths of the cells there, minus three widths")
       .def_property_readonly(
@@ -205,14 +205,14 @@ Its SingularCurves: curves with type, valence, length and ends, and the nodes wh
 --
 
 All cells cut into tets: a TetMesh, with a staircase for a boundary, and frames (k, 3, 3) float64, one per point of it.)")
-      .def("sample", &Sample, py::arg("points"), R"(sample(self, points)
+      .def("sample", &SampleGrid, py::arg("points"), R"(sample(self, points)
 --
 
 The field anywhere. Returns frames (k, 3, 3) float64, and (k,) bool: whether a cell contains the point; cells reach up to
 the width of one beyond the solid. Outside it is the frame of the nearest point of the cells.
 
 points: (k, 3) coordinates.)")
-      .def("write", &Write, py::arg("path"), R"(write(self, path)
+      .def("write", &WriteGrid, py::arg("path"), R"(write(self, path)
 --
 
 Writes a .vtu file with the cells, the axes, the coefficients, the alignment, the distance and the level, as the command
@@ -248,8 +248,8 @@ void AddGrids(py::module_* module) {
          int levels, int degree, const std::string& method, double feature_angle, std::uint32_t seed, int starts,
          int threads, const std::string& solver, std::optional<int> max_iterations, const std::string& repair,
          const py::object& callback) {
-        return Solve(surface, resolution, size, levels, repair,
-                     {degree, method, feature_angle, seed, starts, threads, solver, max_iterations}, callback);
+        return SolveGrid(surface, resolution, size, levels, repair,
+                         {degree, method, feature_angle, seed, starts, threads, solver, max_iterations}, callback);
       },
       py::arg("surface"), py::kw_only(), py::arg("resolution"), py::arg("size"), py::arg("levels"), py::arg("degree"),
       py::arg("method"), py::arg("feature_angle"), py::arg("seed"), py::arg("starts"), py::arg("threads"),

@@ -27,9 +27,9 @@ struct ElementLayout<std::array<Eigen::Vector3d, 4>> {
 
 namespace {
 
-std::shared_ptr<SeamlessMap> Solve(const std::shared_ptr<TetMesh>& mesh, const py::object& frames,
-                                   std::optional<double> size, bool integer, int max_iterations, int threads,
-                                   const py::object& callback) {
+std::shared_ptr<SeamlessMap> SolveMap(const std::shared_ptr<TetMesh>& mesh, const py::object& frames,
+                                      std::optional<double> size, bool integer, int max_iterations, int threads,
+                                      const py::object& callback) {
   const std::vector<Eigen::Matrix3d> rotations = FramesFrom(frames, "frames");
   Progress progress(callback);
   MapOptions options;
@@ -60,7 +60,7 @@ std::vector<std::string> Obstacles(const SeamlessMap& map) {
   return lines;
 }
 
-void Write(const SeamlessMap& map, const std::filesystem::path& path) {
+void WriteMap(const SeamlessMap& map, const std::filesystem::path& path) {
   WithFile([&] {
     if (path.extension() == ".hexex") {
       WriteHexEx(path, map.domain.mesh, map.parameters);
@@ -99,7 +99,7 @@ stands for; "stretch_5" and "stretch_95", percentiles of the lengths on the map 
 --
 
 A list of sentences about what stands in the way of the map, the largest of each kind first.)")
-      .def("write", &Write, py::arg("path"), R"(write(self, path)
+      .def("write", &WriteMap, py::arg("path"), R"(write(self, path)
 --
 
 Writes a .hexex file, for libHexEx, or a .vtu file. Raises OSError if it cannot be written.)")
@@ -107,9 +107,9 @@ Writes a .hexex file, for libHexEx, or a .vtu file. Raises OSError if it cannot 
         return "<octupole.SeamlessMap: " + std::to_string(map.parameters.size()) + " tets, " +
                std::to_string(map.flipped.size()) + " flipped>";
       });
-  module->def("seamless_map", &Solve, py::arg("mesh"), py::arg("frames"), py::kw_only(), py::arg("size") = py::none(),
-              py::arg("integer") = false, py::arg("max_iterations") = 200, py::arg("threads") = 1,
-              py::arg("callback") = py::none(),
+  module->def("seamless_map", &SolveMap, py::arg("mesh"), py::arg("frames"), py::kw_only(),
+              py::arg("size") = py::none(), py::arg("integer") = false, py::arg("max_iterations") = 200,
+              py::arg("threads") = 1, py::arg("callback") = py::none(),
               R"(seamless_map(mesh, frames, *, size=None, integer=False, max_iterations=200, threads=1, callback=None)
 --
 

@@ -10,14 +10,13 @@
 #include "octupole/mesh/box_mesh.h"
 #include "octupole/mesh/mesh_topology.h"
 #include "random_inputs.h"
+#include "turn.h"
 
 namespace octupole {
 namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-Matrix3d Turn(double angle, const Vector3d& axis) { return Eigen::AngleAxisd(angle, axis).toRotationMatrix(); }
 
 TEST(MeasureField, FindsNothingWrongWithTheConstantFieldOfABox) {
   const TetMesh mesh = MakeBoxMesh({3, 4, 5}, {1, 1, 1});

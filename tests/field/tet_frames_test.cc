@@ -2,23 +2,20 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <stdexcept>
 
 #include "octupole/frames/frame.h"
 #include "octupole/frames/octahedral_group.h"
 #include "octupole/mesh/box_mesh.h"
 #include "random_inputs.h"
+#include "turn.h"
 
 namespace octupole {
 namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-Matrix3d Turn(double angle, const Vector3d& axis) {
-  return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
-}
 
 Matrix3d FrameOfTet(const std::vector<Matrix3d>& corners) {
   const TetMesh mesh = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2, 3}}, {}};

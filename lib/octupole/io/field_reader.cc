@@ -17,7 +17,7 @@ namespace {
 
 using internal::VtuContent;
 
-[[noreturn]] void Fail(const std::filesystem::path& path, const std::string& what) {
+[[noreturn]] void Refuse(const std::filesystem::path& path, const std::string& what) {
   throw std::runtime_error(path.string() + ": " + what);
 }
 
@@ -36,7 +36,7 @@ std::vector<Eigen::Matrix3d> ReadFrames(const std::filesystem::path& path, const
     if (axes[0] && axes[1] && axes[2]) break;
   }
   if (!axes[0] || !axes[1] || !axes[2]) {
-    Fail(path, "no field: the point arrays frame_x, frame_y and frame_z are missing, which 'octupole field' writes");
+    Refuse(path, "no field: the point arrays frame_x, frame_y and frame_z are missing, which 'octupole field' writes");
   }
   std::vector<Eigen::Matrix3d> frames(num_points);
   for (std::size_t v = 0; v < num_points; ++v) {
@@ -44,7 +44,7 @@ std::vector<Eigen::Matrix3d> ReadFrames(const std::filesystem::path& path, const
     for (int k = 0; k < 3; ++k) frame.col(k) = Eigen::Map<const Eigen::Vector3d>(axes[k]->data() + 3 * v);
     const double error = (frame.transpose() * frame - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
     constexpr double kTolerance = 0.01, kRounding = 1e-12;
-    if (!(error <= kTolerance)) Fail(path, "the axes at point " + std::to_string(v) + " are not orthonormal");
+    if (!(error <= kTolerance)) Refuse(path, "the axes at point " + std::to_string(v) + " are not orthonormal");
     // Frames are left as they are to the last bit, on which matches may hang where they are ties.
     const Eigen::Vector3d normal = frame.col(2);
     const bool is_right_handed = frame.col(0).cross(frame.col(1)).dot(normal) > 0;
@@ -79,14 +79,14 @@ FieldFile ReadField(const std::filesystem::path& path) {
   }
   field.surface.points = content.parsed.mesh.points;
   ForEachCell(content, VtuCellType::kTriangle, [&](std::size_t, const std::int64_t* v, std::int64_t size) {
-    if (size != 3) Fail(path, "a triangle of " + std::to_string(size) + " vertices");
+    if (size != 3) Refuse(path, "a triangle of " + std::to_string(size) + " vertices");
     field.surface.triangles.push_back({static_cast<int>(v[0]), static_cast<int>(v[1]), static_cast<int>(v[2])});
   });
-  if (field.surface.triangles.empty()) Fail(path, "neither tetrahedra nor triangles");
+  if (field.surface.triangles.empty()) Refuse(path, "neither tetrahedra nor triangles");
   try {
     CheckTriangleMesh(field.surface);
   } catch (const std::invalid_argument& error) {
-    Fail(path, error.what());
+    Refuse(path, error.what());
   }
   return field;
 }
@@ -101,7 +101,7 @@ SingularStructure ReadSingularities(const std::filesystem::path& path) {
       return kNone;
     }
     if (found == nullptr) {
-      Fail(path, std::string("no singular curves: the cell array ") + name +
+      Refuse(path, std::string("no singular curves: the cell array ") + name +
                      " is missing, which 'octupole field "
                      "--singularities' writes");
     }
@@ -112,7 +112,7 @@ SingularStructure ReadSingularities(const std::filesystem::path& path) {
 
   SingularStructure structure;
   ForEachCell(content, VtuCellType::kVertex, [&](std::size_t c, const std::int64_t* v, std::int64_t size) {
-    if (size != 1) Fail(path, "a vertex of " + std::to_string(size) + " points");
+    if (size != 1) Refuse(path, "a vertex of " + std::to_string(size) + " points");
     if (indices[c] != 0) {
       structure.points.push_back({points[v[0]], static_cast<int>(indices[c])});
     } else {
@@ -122,11 +122,11 @@ SingularStructure ReadSingularities(const std::filesystem::path& path) {
   double last_number = -1;
   std::int64_t last_vertex = -1;
   ForEachCell(content, VtuCellType::kLine, [&](std::size_t c, const std::int64_t* v, std::int64_t size) {
-    if (size != 2) Fail(path, "a line of " + std::to_string(size) + " points");
+    if (size != 2) Refuse(path, "a line of " + std::to_string(size) + " points");
     std::vector<SingularCurve>& curves = structure.curves.curves;
     if (curves.empty() || numbers[c] != last_number || v[0] != last_vertex) {
       if (types[c] < 0 || types[c] > static_cast<int>(TurnType::kThird)) {
-        Fail(path, "a curve of type " + std::to_string(static_cast<int>(types[c])));
+        Refuse(path, "a curve of type " + std::to_string(static_cast<int>(types[c])));
       }
       SingularCurve& curve = curves.emplace_back();
       curve.type = static_cast<TurnType>(static_cast<int>(types[c]));

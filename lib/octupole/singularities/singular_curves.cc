@@ -14,7 +14,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kPi = M_PI;
 // A curve's valence is defined when the axis of the turn is nearer to its direction than to the directions across.
 constexpr double kMinMeanCosine = 0.7;
 
@@ -44,8 +43,8 @@ Turn MeasureTurn(const std::array<Vector3d, 3>& points, const std::array<const M
   turn.point = Vector3d::Zero();
   double total = 0;
   for (int i = 0; i < 3; ++i) {
-    const double angle = 2 * kPi * rotations[(i + 1) % 3].dot(whole) / whole.squaredNorm();
-    const double weight = std::max(0., std::sin(std::clamp(angle, 0., kPi)));
+    const double angle = 2 * M_PI * rotations[(i + 1) % 3].dot(whole) / whole.squaredNorm();
+    const double weight = std::max(0., std::sin(std::clamp(angle, 0., M_PI)));
     turn.point += weight * points[i];
     total += weight;
   }

@@ -20,7 +20,6 @@ using Triangles = std::vector<std::array<int, 3>>;
 // Two directions of the fan count as equally near to an axis within this, so that rounding does not choose.
 constexpr double kTie = 1e-6;
 const double kMinNormalCosine = std::cos(M_PI / 180);
-constexpr double kPi = M_PI;
 
 // Side 3 t + i goes from corner i of triangle t to the next, and corner 3 t + i lies between the sides 3 t + i and
 // before that.
@@ -194,7 +193,7 @@ class Surface {
     for (std::size_t i = 0; i < fan.size(); ++i) {
       double& scaled = corners_[fan[i].corner].angle;
       scaled = shape[i].angle;
-      if (is_closed) scaled = total > 0 ? scaled * (2 * kPi / total) : 2 * kPi / static_cast<double>(fan.size());
+      if (is_closed) scaled = total > 0 ? scaled * (2 * M_PI / total) : 2 * M_PI / static_cast<double>(fan.size());
       try_direction((frame.transpose() * directions[i]).cwiseAbs().maxCoeff(), angles[i]);
       const Vector3d& x = directions[i];
       const Vector3d y = shape[i].normal.cross(x);
@@ -226,13 +225,13 @@ class Surface {
   // other side sees.
   double Turn(int side) const {
     const FanCorner &from = corners_[side], &to = corners_[After(side)];
-    return std::remainder(to.orientation * to.cross_to_before - from.orientation * from.cross_to_own, kPi / 2);
+    return std::remainder(to.orientation * to.cross_to_before - from.orientation * from.cross_to_own, M_PI / 2);
   }
 
   int QuarterIndex(int triangle) const {
-    double sum = -kPi;
+    double sum = -M_PI;
     for (const int i : {3 * triangle, 3 * triangle + 1, 3 * triangle + 2}) sum += Turn(i) + corners_[i].angle;
-    return static_cast<int>(std::lround(sum / (kPi / 2)));
+    return static_cast<int>(std::lround(sum / (M_PI / 2)));
   }
 
   const Points& points_;

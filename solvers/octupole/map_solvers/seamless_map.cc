@@ -16,6 +16,7 @@
 #include "octupole/map_solvers/internal/map_transfer.h"
 #include "octupole/map_solvers/internal/untangler.h"
 #include "octupole/mesh/mesh_topology.h"
+#include "octupole/minimization/internal/seconds_since.h"
 #include "octupole/minimization/workers.h"
 
 namespace octupole {
@@ -24,11 +25,10 @@ namespace {
 using internal::MakeMapSystem;
 using internal::MapEnergy;
 using internal::MapSystem;
+using internal::SecondsSince;
 using internal::SolveByConjugateGradients;
 using internal::Vector;
 using Clock = std::chrono::steady_clock;
-
-double SecondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 double MeanEdgeLength(const TetMesh& mesh) {
   double sum = 0;

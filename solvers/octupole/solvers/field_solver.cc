@@ -8,6 +8,7 @@
 #include "octupole/cost_functions/alignment_cost.h"
 #include "octupole/field/mid_edge_frames.h"
 #include "octupole/frames/frame.h"
+#include "octupole/minimization/internal/seconds_since.h"
 #include "octupole/solvers/fast_solver.h"
 #include "octupole/solvers/huang.h"
 #include "octupole/solvers/internal/minimizer.h"
@@ -17,9 +18,7 @@
 namespace octupole {
 namespace {
 
-double SecondsSince(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
+using internal::SecondsSince;
 
 template <int kDegree>
 void SolveWithCeres(const FieldGraph& graph, const FieldOptions<kDegree>& options, Field<kDegree>* field) {

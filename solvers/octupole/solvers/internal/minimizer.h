@@ -16,6 +16,7 @@
 #include "octupole/field/field_graph.h"
 #include "octupole/harmonics/harmonics.h"
 #include "octupole/minimization/internal/minimize_lbfgs.h"
+#include "octupole/minimization/internal/seconds_since.h"
 #include "octupole/minimization/workers.h"
 #include "octupole/solvers/field_solution.h"
 
@@ -76,7 +77,7 @@ class Minimizer final : public ceres::IterationCallback {
  private:
   bool IsEnded() const { return termination_ == ceres::USER_SUCCESS || termination_ == ceres::USER_FAILURE; }
 
-  double Seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  double Seconds() const { return SecondsSince(start_); }
 
   const MinimizerOptions& options_;
   std::string step_;
