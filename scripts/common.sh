@@ -40,5 +40,5 @@ install_missing() {
 
 # run_workflow PRESET: without CMake's status lines and Ninja's progress, so that what remains is worth reading.
 run_workflow() {
-  cmake --workflow --preset "$1" 2>&1 | grep --line-buffered --extended-regexp --invert-match '^(-- |\[[0-9]+/[0-9]+\] )'
+  cmake --workflow --preset "$1" 2>&1 | grep --line-buffered --extended-regexp --invert-match '^(-- |\[[0-9]+/[0-9]+\] |ninja: no work)'
 }
