@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "interruption.h"
+#include "large_pages.h"
 #include "octupole/distributed/distributed_error.h"
 #include "octupole/distributed/distributed_quality.h"
 #include "octupole/distributed/distributed_solver.h"
@@ -328,6 +329,7 @@ int Run(const Ranks& ranks, int argc, char** argv) {
 }  // namespace octupole
 
 int main(int argc, char** argv) {
+  octupole::UseLargePages(argc, argv);
   // The rest of the line is PETSc's.
   const int num_ours = octupole::FirstPetscArgument(argc, argv);
   std::vector<char*> petsc_arguments = {argv[0]};
