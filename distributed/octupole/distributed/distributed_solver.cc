@@ -34,6 +34,9 @@ using Frames = std::vector<Eigen::Matrix3d>;
 constexpr double kFieldTolerance = 1e-4;
 constexpr double kFrameTolerance = 2e-5;
 constexpr double kZeroEnergy = 1e-10;
+// What is gathered, up to 20,000 vertices, makes a graph of this size or smaller at the next step; after one more, of
+// some 300, starts say little of a graph whose clusters were formed by parts.
+constexpr std::size_t kMaxGatheredStartVertices = 3000;
 
 // An evaluation: the values of ghosts travel while the vertices that touch none are swept.
 template <typename Energy>
@@ -187,7 +190,8 @@ class DistributedSolve {
     MPI_Comm_rank(comm_, &rank);
     FieldSolution<kDegree> solution;
     DoTogether(comm_, [&] {
-      if (rank == 0) solution = SolveFast<kDegree>(whole.graph, weights_[level_], options_.minimizer);
+      if (rank == 0)
+        solution = SolveFast<kDegree>(whole.graph, weights_[level_], options_.minimizer, kMaxGatheredStartVertices);
     });
     minimizer_.Continue(solution.iterations, solution.termination);
     MPI_Bcast(&solution.energy, 1, MPI_DOUBLE, 0, comm_);

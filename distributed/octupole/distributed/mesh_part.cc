@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "octupole/distributed/distributed_error.h"
+#include "octupole/distributed/internal/deal_out.h"
 #include "octupole/distributed/internal/partition.h"
 #include "octupole/distributed/internal/petsc.h"
 #include "octupole/distributed/internal/plex.h"
@@ -92,7 +93,7 @@ MeshPart ReadMeshPart(MPI_Comm comm, const std::filesystem::path& path, std::vec
         throw std::runtime_error(path.string() + ": not read as a DMPlex: " + error.what());
       }
     });
-    plex = internal::Distribute(std::move(plex), nullptr);
+    plex = internal::Distribute(std::move(plex));
     return internal::PartOfPlex(plex.dm, plex.numbers);
   }
   TetMesh whole;
@@ -101,13 +102,7 @@ MeshPart ReadMeshPart(MPI_Comm comm, const std::filesystem::path& path, std::vec
   });
   std::vector<int> part_of_tet;
   DoTogether(comm, [&] { part_of_tet = internal::PartitionTets(whole, num_ranks); });
-  NumberedPlex plex = internal::PlexOfMesh(comm, whole);
-  whole.points.clear();
-  whole.tets.clear();
-  whole.points.shrink_to_fit();
-  whole.tets.shrink_to_fit();
-  plex = internal::Distribute(std::move(plex), &part_of_tet);
-  MeshPart part = internal::PartOfPlex(plex.dm, plex.numbers);
+  MeshPart part = internal::DealOut(comm, whole, part_of_tet);
   DealFeatures(comm, std::move(whole), &part);
   return part;
 }

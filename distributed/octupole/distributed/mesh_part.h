@@ -38,12 +38,11 @@ struct MeshPart {
   std::vector<std::int64_t> numbers;
 };
 
-/// Reads a mesh and deals it out by PT-Scotch (or as PETSc's option -petscpartitioner_type says). Collective. Points of
-/// no tetrahedron are left out.
+/// Reads a mesh and deals it out by PT-Scotch. Collective. Points of no tetrahedron are left out.
 ///
 ///  - `.h5`: a DMPlex in PETSc's own format, as DMView writes it (PETSC_VIEWER_HDF5_PETSC). All ranks read a share,
-///  none
-///    ever holds the whole. Labels mean what MeshPartOfPlex says.
+///    none ever holds the whole. Labels mean what MeshPartOfPlex says; another partitioner may be chosen by PETSc's
+///    option -petscpartitioner_type.
 ///  - any other format: as ReadTetMesh, by the first rank, which deals it out.
 ///
 /// \param warnings if given, receives those of ReadTetMesh, on the first rank.

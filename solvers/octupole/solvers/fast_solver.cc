@@ -26,8 +26,6 @@ using internal::PolishFrames;
 using internal::ProjectField;
 using internal::SweepGraph;
 
-// Starts begin on the finest graph of at most this many vertices, where they cost little.
-constexpr std::size_t kMaxStartVertices = 2000;
 constexpr int kRound = 5;
 // Relative difference of energies up to which starts count as one.
 constexpr double kSameEnergy = 1e-4;
@@ -195,10 +193,10 @@ std::vector<Start> MakeStarts(const std::vector<Level>& levels, std::size_t leve
 // also by the field that it begins, which may find a lower energy than its frames. Starts of the same energy have most
 // likely ended in the same field, and count once.
 template <int kDegree>
-Start ChooseStart(const std::vector<Level>& levels, const MinimizerOptions& options, Minimizer* minimizer,
-                  std::size_t* level) {
+Start ChooseStart(const std::vector<Level>& levels, const MinimizerOptions& options, std::size_t max_start_vertices,
+                  Minimizer* minimizer, std::size_t* level) {
   *level = 0;
-  while (*level + 1 < levels.size() && levels[*level].graph.num_vertices() > kMaxStartVertices) ++*level;
+  while (*level + 1 < levels.size() && levels[*level].graph.num_vertices() > max_start_vertices) ++*level;
   std::vector<Start> starts = MakeStarts<kDegree>(levels, *level, options, minimizer);
   const std::size_t half = std::max<std::size_t>(1, starts.size() / 2);
   starts.erase(std::unique(starts.begin(), starts.end(), IsSameEnergyOn(levels[*level].graph)), starts.end());
@@ -275,8 +273,8 @@ FieldSolution<kDegree> MakeSolution(const FieldGraph& original, const Level& fin
 }  // namespace
 
 template <int kDegree>
-FieldSolution<kDegree> SolveFast(const FieldGraph& graph, const EnergyWeights& weights,
-                                 const MinimizerOptions& options) {
+FieldSolution<kDegree> SolveFast(const FieldGraph& graph, const EnergyWeights& weights, const MinimizerOptions& options,
+                                 std::size_t max_start_vertices) {
   CheckProblem(graph, weights);
   if (options.num_starts < 1) {
     throw std::invalid_argument("SolveFast: num_starts must be at least 1, not " + std::to_string(options.num_starts));
@@ -285,7 +283,7 @@ FieldSolution<kDegree> SolveFast(const FieldGraph& graph, const EnergyWeights& w
   const std::vector<int> order = BreadthFirstOrder(graph);
   const std::vector<Level> levels = MakeHierarchy(graph, order, weights);
   std::size_t level = 0;
-  Start start = ChooseStart<kDegree>(levels, options, &minimizer, &level);
+  Start start = ChooseStart<kDegree>(levels, options, max_start_vertices, &minimizer, &level);
   std::vector<Harmonic<kDegree>> field;
   if (minimizer.termination() != ceres::FAILURE) field = SolveOnFinest<kDegree>(levels, level, &minimizer, &start);
   return MakeSolution<kDegree>(graph, levels[0], order, field, start.frames, &minimizer);
@@ -334,8 +332,8 @@ FieldSolution<kDegree> PolishField(const FieldGraph& graph, const EnergyWeights&
   return result;
 }
 
-template FieldSolution<3> SolveFast<3>(const FieldGraph&, const EnergyWeights&, const MinimizerOptions&);
-template FieldSolution<4> SolveFast<4>(const FieldGraph&, const EnergyWeights&, const MinimizerOptions&);
+template FieldSolution<3> SolveFast<3>(const FieldGraph&, const EnergyWeights&, const MinimizerOptions&, std::size_t);
+template FieldSolution<4> SolveFast<4>(const FieldGraph&, const EnergyWeights&, const MinimizerOptions&, std::size_t);
 template FieldSolution<3> SolveFastFrom<3>(const FieldGraph&, const EnergyWeights&, const std::vector<Octupole>&,
                                            const MinimizerOptions&);
 template FieldSolution<4> SolveFastFrom<4>(const FieldGraph&, const EnergyWeights&, const std::vector<Hexadecapole>&,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <vector>
 
 #include "octupole/energies/field_problem.h"
@@ -10,11 +11,15 @@
 
 namespace octupole {
 
+/// Where starts cost little.
+inline constexpr std::size_t kMaxStartVertices = 2000;
+
 /// The field of a graph, quickly: minimises the energy of BuildFieldProblem, with hard alignments, as one function
 /// (FieldEnergy) by MinimizeLbfgs, from coarse to fine, and finishes on frames.
 ///
 ///  1. The graph is coarsened again and again (CoarsenGraph).
-///  2. On one of the coarse graphs several starts are tried: the linear one, that of SolveRaySokolov, random ones, one
+///  2. On the finest graph of at most `max_start_vertices` several starts are tried: the linear one, that of
+///  SolveRaySokolov, random ones, one
 ///     that comes from the coarsest graph, and with more than five also random ones found in the other degree. The
 ///     better half are compared on the next finer graph, and the lowest after polishing wins.
 ///  3. The field is copied to the next finer graph and minimised there, until the finest.
@@ -33,7 +38,8 @@ namespace octupole {
 /// or num_threads or num_starts is below 1.
 template <int kDegree>
 FieldSolution<kDegree> SolveFast(const FieldGraph& graph, const EnergyWeights& weights,
-                                 const MinimizerOptions& options = {});
+                                 const MinimizerOptions& options = {},
+                                 std::size_t max_start_vertices = kMaxStartVertices);
 
 /// The same from a field of the caller's, one harmonic per vertex, on the finest graph only.
 /// \throw std::invalid_argument also when `start` has another size or a value that is not finite.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -144,35 +143,6 @@ std::vector<PetscInt> PushForward(PetscSF star_forest, std::vector<PetscInt> val
   return result;
 }
 
-NumberedPlex PlexOfMesh(MPI_Comm comm, const TetMesh& mesh) {
-  constexpr PetscInt kUnused = -1;
-  NumberedPlex plex;
-  const std::vector<bool> is_corner = CornersOfTets(mesh);
-  std::vector<PetscInt> compact(mesh.points.size(), kUnused);
-  plex.numbers.assign(mesh.tets.size(), kUnused);
-  PetscInt num_points = 0;
-  std::vector<PetscReal> coordinates;
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    if (!is_corner[v]) continue;
-    compact[v] = num_points++;
-    plex.numbers.push_back(static_cast<PetscInt>(v));
-    coordinates.insert(coordinates.end(), mesh.points[v].data(), mesh.points[v].data() + 3);
-  }
-  std::vector<PetscInt> corners;
-  corners.reserve(4 * mesh.tets.size());
-  for (const std::array<int, 4>& tet : mesh.tets) {
-    for (const int v : tet) corners.push_back(compact[v]);
-  }
-  constexpr PetscInt kDim = 3, kNumCorners = 4;
-  Check(DMPlexCreateFromCellListPetsc(comm, kDim, static_cast<PetscInt>(mesh.tets.size()), num_points, kNumCorners,
-                                      PETSC_FALSE, corners.data(), kDim, coordinates.data(), &plex.dm));
-  Check(DMCreateLabel(plex.dm, kRegions));
-  for (std::size_t cell = 0; cell < mesh.regions.size(); ++cell) {
-    Check(DMSetLabelValue(plex.dm, kRegions, static_cast<PetscInt>(cell), mesh.regions[cell]));
-  }
-  return plex;
-}
-
 NumberedPlex LoadPlex(MPI_Comm comm, const std::filesystem::path& path) {
   Viewer viewer;
   Check(PetscViewerHDF5Open(comm, path.c_str(), FILE_MODE_READ, &viewer));
@@ -200,22 +170,10 @@ NumberedPlex LoadPlex(MPI_Comm comm, const std::filesystem::path& path) {
   return plex;
 }
 
-NumberedPlex Distribute(NumberedPlex plex, const std::vector<int>* part_of_cell) {
+NumberedPlex Distribute(NumberedPlex plex) {
   PetscPartitioner partitioner = nullptr;
   Check(DMPlexGetPartitioner(plex.dm, &partitioner));
-  if (part_of_cell != nullptr) {
-    int num_ranks = 0;
-    MPI_Comm_size(PetscObjectComm(reinterpret_cast<PetscObject>(static_cast<DM>(plex.dm))), &num_ranks);
-    std::vector<PetscInt> sizes(num_ranks, 0), cells(part_of_cell->size());
-    for (const int part : *part_of_cell) ++sizes[part];
-    std::iota(cells.begin(), cells.end(), 0);
-    std::stable_sort(cells.begin(), cells.end(),
-                     [&](PetscInt c, PetscInt d) { return (*part_of_cell)[c] < (*part_of_cell)[d]; });
-    Check(PetscPartitionerSetType(partitioner, PETSCPARTITIONERSHELL));
-    Check(PetscPartitionerShellSetPartition(partitioner, num_ranks, sizes.data(), cells.data()));
-  } else {
-    Check(PetscPartitionerSetType(partitioner, PETSCPARTITIONERPTSCOTCH));
-  }
+  Check(PetscPartitionerSetType(partitioner, PETSCPARTITIONERPTSCOTCH));
   Check(PetscPartitionerSetFromOptions(partitioner));
   Check(DMPlexSetPartitionBalance(plex.dm, PETSC_TRUE));
   NumberedPlex result;

@@ -22,16 +22,12 @@ struct NumberedPlex {
   std::vector<PetscInt> numbers;
 };
 
-/// The tetrahedra and regions of a mesh that the first rank has, all on that rank, not interpolated. Points of no
-/// tetrahedron are left out; numbers are those of the mesh's points. Collective; `mesh` matters on the first rank only.
-NumberedPlex PlexOfMesh(MPI_Comm comm, const TetMesh& mesh);
-
 /// A DMPlex from PETSc's HDF5, each rank's share. The numbers are those of the vertices in the file.
 NumberedPlex LoadPlex(MPI_Comm comm, const std::filesystem::path& path);
 
-/// Deals the cells out anew, with one layer of overlap: to the ranks that `part_of_cell` says for this rank's cells,
-/// or, without it, by PT-Scotch, if PETSc's options name no other partitioner. On one rank the same.
-NumberedPlex Distribute(NumberedPlex plex, const std::vector<int>* part_of_cell);
+/// Deals the cells out anew, with one layer of overlap, by PT-Scotch, if PETSc's options name no other partitioner. On
+/// one rank the same.
+NumberedPlex Distribute(NumberedPlex plex);
 
 /// The part, by a DMPlex with an overlap. `points_of_part`, if given, receives for each point of the DMPlex its place
 /// among the points of the part, where it is a vertex.
