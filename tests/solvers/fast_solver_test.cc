@@ -167,6 +167,26 @@ TYPED_TEST(FastSolverTest, TriesStartsUntilTwoAgreeAndNotMoreThanItIsToldTo) {
   EXPECT_THROW(SolveFast<l>(graph, {}, options), std::invalid_argument);
 }
 
+TYPED_TEST(FastSolverTest, StartsOnTheFinestGraphThatIsNoLargerThanItIsToldTo) {
+  constexpr int l = TypeParam::value;
+  const FieldGraph graph = GraphOf(MakeBallMesh(8));
+  const auto size_for_starts = [&](std::size_t max_start_vertices) {
+    std::size_t size = 0;
+    MinimizerOptions options;
+    options.step_callback = [&](const StepSummary& step) {
+      if (size == 0 && step.name.find("random start") == 0) size = step.num_vertices;
+    };
+    SolveFast<l>(graph, {}, options, max_start_vertices);
+    return size;
+  };
+  EXPECT_EQ(size_for_starts(kMaxStartVertices), graph.num_vertices());
+  const std::size_t coarse = size_for_starts(graph.num_vertices() - 1);
+  EXPECT_LT(coarse, graph.num_vertices() / 4);
+  EXPECT_GT(coarse, graph.num_vertices() / 20);
+  EXPECT_EQ(size_for_starts(coarse), coarse);
+  EXPECT_LT(size_for_starts(coarse - 1), coarse);
+}
+
 // The road of residual blocks, from a random start and to convergence, has nothing better to offer.
 TYPED_TEST(FastSolverTest, IsNotWorseThanCeres) {
   constexpr int l = TypeParam::value;

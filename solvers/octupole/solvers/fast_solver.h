@@ -19,9 +19,9 @@ inline constexpr std::size_t kMaxStartVertices = 2000;
 ///
 ///  1. The graph is coarsened again and again (CoarsenGraph).
 ///  2. On the finest graph of at most `max_start_vertices` several starts are tried: the linear one, that of
-///  SolveRaySokolov, random ones, one
-///     that comes from the coarsest graph, and with more than five also random ones found in the other degree. The
-///     better half are compared on the next finer graph, and the lowest after polishing wins.
+///     SolveRaySokolov, random ones, one that comes from the coarsest graph, and with more than five also random ones
+///     found in the other degree. The better half are compared on the next finer graph, and the lowest after polishing
+///     wins.
 ///  3. The field is copied to the next finer graph and minimised there, until the finest.
 ///  4. It is projected to frames, which are polished: their FrameDifference<4>, summed over the edges, is minimised
 ///     (FrameEnergy).
