@@ -25,6 +25,7 @@ namespace octupole {
 namespace {
 
 using internal::CoarseLevel;
+using internal::ContiguousType;
 using internal::GraphLevel;
 using internal::Halo;
 using internal::TaoMinimizer;
@@ -52,22 +53,6 @@ TaoMinimizer::Function EvaluationOf(const Energy& energy, const GraphLevel& leve
     return inside + energy.Sweep(level.num_interior, level.num_owned, parameters, gradient);
   };
 }
-
-// The row of an energy as a type of MPI.
-class RowType {
- public:
-  explicit RowType(std::size_t size) {
-    MPI_Type_contiguous(static_cast<int>(size), MPI_DOUBLE, &type_);
-    MPI_Type_commit(&type_);
-  }
-  ~RowType() { MPI_Type_free(&type_); }
-  RowType(const RowType&) = delete;
-  RowType& operator=(const RowType&) = delete;
-  operator MPI_Datatype() const { return type_; }
-
- private:
-  MPI_Datatype type_ = MPI_DATATYPE_NULL;
-};
 
 double ZeroCost(const GraphLevel& level) {
   return kZeroEnergy * level.mean_weight * static_cast<double>(level.num_vertices);
@@ -190,8 +175,8 @@ class DistributedSolve {
     MPI_Comm_rank(comm_, &rank);
     FieldSolution<kDegree> solution;
     DoTogether(comm_, [&] {
-      if (rank == 0)
-        solution = SolveFast<kDegree>(whole.graph, weights_[level_], options_.minimizer, kMaxGatheredStartVertices);
+      if (rank != 0) return;
+      solution = SolveFast<kDegree>(whole.graph, weights_[level_], options_.minimizer, kMaxGatheredStartVertices);
     });
     minimizer_.Continue(solution.iterations, solution.termination);
     MPI_Bcast(&solution.energy, 1, MPI_DOUBLE, 0, comm_);
@@ -249,7 +234,7 @@ class DistributedSolve {
       for (std::size_t l = level_; l > 0; --l) reached = Prolong(l, reached);
       options_.keep({static_cast<int>(level_), Unplaced(reached), {}});
     };
-    const RowType row(FieldEnergy<kDegree>::kRowSize);
+    const ContiguousType row(FieldEnergy<kDegree>::kRowSize, MPI_DOUBLE);
     const double result = minimizer_.Minimize(level_ == 0 ? "field" : "level", level, EvaluationOf(*energy, level, row),
                                               ZeroCost(level), kFieldTolerance, &parameters, keep);
     *field = energy->FieldOf(parameters);
@@ -277,7 +262,7 @@ class DistributedSolve {
       options_.keep({0, Unplaced(field), Unplaced(energy->FramesOf(x))});
     };
     std::vector<double> parameters(energy->NumParameters(), 0);
-    const RowType row(FrameEnergy::kRowSize);
+    const ContiguousType row(FrameEnergy::kRowSize, MPI_DOUBLE);
     minimizer_.Minimize("frames", finest_, EvaluationOf(*energy, finest_, row), ZeroCost(finest_), kFrameTolerance,
                         &parameters, keep);
     *frames = energy->FramesOf(parameters);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "octupole/distributed/distributed_error.h"
+#include "octupole/distributed/internal/contiguous_type.h"
 #include "octupole/distributed/internal/deal_out.h"
 #include "octupole/distributed/internal/partition.h"
 #include "octupole/distributed/internal/petsc.h"
@@ -27,7 +28,7 @@ void Broadcast(MPI_Comm comm, std::vector<Element>* values) {
   auto size = static_cast<int>(values->size());
   MPI_Bcast(&size, 1, MPI_INT, 0, comm);
   values->resize(size);
-  MPI_Bcast(values->data(), static_cast<int>(size * (sizeof(Element) / sizeof(int))), MPI_INT, 0, comm);
+  MPI_Bcast(values->data(), size, internal::ContiguousType(sizeof(Element), MPI_BYTE), 0, comm);
 }
 
 // The features and surface triangles of a mesh, whose numbers are those of the whole, that have all their vertices in a

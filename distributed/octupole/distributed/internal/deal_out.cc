@@ -4,33 +4,27 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
 #include <utility>
+
+#include "octupole/distributed/internal/contiguous_type.h"
+#include "octupole/distributed/internal/stars.h"
 
 namespace octupole::internal {
 namespace {
 
 constexpr int kNobody = -1;
 
-// The owner of most tetrahedra around each vertex: counted are runs of equal owners, sorted.
+// The owner of most tetrahedra around each vertex.
 std::vector<int> OwnersOfVertices(const TetMesh& mesh, const std::vector<int>& owner_of_tet) {
-  std::vector<std::size_t> first(mesh.points.size() + 1, 0);
-  for (const std::array<int, 4>& tet : mesh.tets) {
-    for (const int v : tet) ++first[v + 1];
-  }
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) first[v + 1] += first[v];
-  std::vector<int> around(4 * mesh.tets.size());
-  std::vector<std::size_t> next(first.begin(), first.end() - 1);
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    for (const int v : mesh.tets[t]) around[next[v]++] = owner_of_tet[t];
-  }
-  std::vector<int> owners(mesh.points.size(), kNobody);
+  const Stars stars(mesh);
+  std::vector<int> owners(mesh.points.size(), kNobody), around;
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    const auto end = around.begin() + static_cast<std::ptrdiff_t>(first[v + 1]);
-    auto run = around.begin() + static_cast<std::ptrdiff_t>(first[v]);
-    std::sort(run, end);
-    for (std::ptrdiff_t longest = 0; run != end;) {
-      const auto next_run = std::upper_bound(run, end, *run);
+    around.clear();
+    for (std::size_t i = stars.first[v]; i < stars.first[v + 1]; ++i) around.push_back(owner_of_tet[stars.tets[i]]);
+    std::sort(around.begin(), around.end());
+    std::ptrdiff_t longest = 0;
+    for (auto run = around.begin(); run != around.end();) {
+      const auto next_run = std::upper_bound(run, around.end(), *run);
       if (next_run - run > longest) {
         longest = next_run - run;
         owners[v] = *run;
@@ -110,29 +104,22 @@ class Dealer {
   std::vector<std::vector<int>> other_tets_;
 };
 
-// What travels, with what it is made of.
+// What travels.
 template <typename Part, typename Visit>
 void ForEachArray(Part* part, const Visit& visit) {
-  visit(&part->mesh.points, MPI_DOUBLE);
-  visit(&part->mesh.tets, MPI_INT);
-  visit(&part->mesh.regions, MPI_INT);
-  visit(&part->ghosts, MPI_INT);
-  visit(&part->numbers, MPI_INT64_T);
-}
-
-template <typename Element>
-int NumbersIn(MPI_Datatype type) {
-  int size = 0;
-  MPI_Type_size(type, &size);
-  return static_cast<int>(sizeof(Element)) / size;
+  visit(&part->mesh.points);
+  visit(&part->mesh.tets);
+  visit(&part->mesh.regions);
+  visit(&part->ghosts);
+  visit(&part->numbers);
 }
 
 constexpr int kTag = 0;
 
 void Send(MPI_Comm comm, int rank, const MeshPart& part) {
-  ForEachArray(&part, [&](const auto* values, MPI_Datatype type) {
-    using Element = typename std::decay_t<decltype(*values)>::value_type;
-    MPI_Send(values->data(), static_cast<int>(values->size()) * NumbersIn<Element>(type), type, rank, kTag, comm);
+  ForEachArray(&part, [&](const auto* values) {
+    const ContiguousType unit(sizeof(*values->data()), MPI_BYTE);
+    MPI_Send(values->data(), static_cast<int>(values->size()), unit, rank, kTag, comm);
   });
   const std::uint64_t num_owned_tets = part.num_owned_tets;
   MPI_Send(&num_owned_tets, 1, MPI_UINT64_T, rank, kTag, comm);
@@ -140,14 +127,14 @@ void Send(MPI_Comm comm, int rank, const MeshPart& part) {
 
 MeshPart Receive(MPI_Comm comm) {
   MeshPart part;
-  ForEachArray(&part, [&](auto* values, MPI_Datatype type) {
-    using Element = typename std::decay_t<decltype(*values)>::value_type;
+  ForEachArray(&part, [&](auto* values) {
+    const ContiguousType unit(sizeof(*values->data()), MPI_BYTE);
     MPI_Status status;
     MPI_Probe(0, kTag, comm, &status);
     int count = 0;
-    MPI_Get_count(&status, type, &count);
-    values->resize(count / NumbersIn<Element>(type));
-    MPI_Recv(values->data(), count, type, 0, kTag, comm, MPI_STATUS_IGNORE);
+    MPI_Get_count(&status, unit, &count);
+    values->resize(count);
+    MPI_Recv(values->data(), count, unit, 0, kTag, comm, MPI_STATUS_IGNORE);
   });
   part.num_owned_points = part.numbers.size() - part.ghosts.size();
   std::uint64_t num_owned_tets = 0;

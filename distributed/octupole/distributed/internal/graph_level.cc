@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "octupole/distributed/distributed_error.h"
+#include "octupole/distributed/internal/contiguous_type.h"
 #include "octupole/field/coarse_graph.h"
 
 namespace octupole::internal {
@@ -86,11 +87,8 @@ std::vector<Element> Gather(MPI_Comm comm, const std::vector<Element>& mine) {
   MPI_Gather(&size, 1, MPI_INT, sizes.data(), 1, MPI_INT, 0, comm);
   for (int i = 0; i < num_ranks; ++i) offsets[i + 1] = offsets[i] + sizes[i];
   std::vector<Element> all(rank == 0 ? offsets.back() : 0);
-  MPI_Datatype unit;
-  MPI_Type_contiguous(sizeof(Element), MPI_BYTE, &unit);
-  MPI_Type_commit(&unit);
+  const ContiguousType unit(sizeof(Element), MPI_BYTE);
   MPI_Gatherv(mine.data(), size, unit, all.data(), sizes.data(), offsets.data(), unit, 0, comm);
-  MPI_Type_free(&unit);
   return all;
 }
 

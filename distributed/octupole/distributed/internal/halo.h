@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "octupole/distributed/internal/contiguous_type.h"
 #include "octupole/distributed/internal/petsc.h"
 #include "octupole/distributed/mesh_part.h"
 
@@ -24,12 +25,9 @@ class Halo {
   /// Both at once on the values of all vertices of this rank.
   template <typename Value>
   void Update(std::vector<Value>* values) const {
-    MPI_Datatype unit;
-    MPI_Type_contiguous(sizeof(Value), MPI_BYTE, &unit);
-    MPI_Type_commit(&unit);
+    const ContiguousType unit(sizeof(Value), MPI_BYTE);
     Begin(unit, values->data(), values->data() + num_owned_);
     End(unit, values->data(), values->data() + num_owned_);
-    MPI_Type_free(&unit);
   }
 
   /// What this rank sends when all values are copied: messages, and values in them.

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 
 #include "octupole/distributed/internal/petsc.h"
+#include "octupole/distributed/internal/stars.h"
 #include "octupole/mesh/morton_order.h"
 
 namespace octupole::internal {
@@ -30,23 +30,6 @@ std::vector<std::size_t> OrderOfTets(const TetMesh& mesh) {
   }
   return MortonOrder(centres);
 }
-
-// The tetrahedra around each vertex: tets[first[v]] up to tets[first[v + 1]].
-struct Stars {
-  explicit Stars(const TetMesh& mesh) : first(mesh.points.size() + 1, 0), tets(4 * mesh.tets.size()) {
-    for (const std::array<int, 4>& tet : mesh.tets) {
-      for (const int v : tet) ++first[v + 1];
-    }
-    std::partial_sum(first.begin(), first.end(), first.begin());
-    std::vector<std::size_t> next(first.begin(), first.end() - 1);
-    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-      for (const int v : mesh.tets[t]) tets[next[v]++] = static_cast<int>(t);
-    }
-  }
-
-  std::vector<std::size_t> first;
-  std::vector<int> tets;
-};
 
 struct BlockEdge {
   int a;
