@@ -26,7 +26,15 @@ function(octupole_add_library component)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${component} POSITION_INDEPENDENT_CODE ON
                         VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   target_compile_features(${target} ${scope} cxx_std_17)
-  target_sources(${target} ${scope} FILE_SET HEADERS BASE_DIRS ${CMAKE_CURRENT_SOURCE_DIR} FILES ${arg_HEADERS})
+  # A header that has a source is what that includes first, and so compiled with it; only the others need be verified.
+  set(alone ${arg_HEADERS})
+  list(TRANSFORM arg_SOURCES REPLACE "\\.cc$" ".h" OUTPUT_VARIABLE with_source)
+  list(REMOVE_ITEM alone ${with_source})
+  list(REMOVE_ITEM arg_HEADERS ${alone})
+  target_sources(${target} ${scope}
+                 FILE_SET HEADERS BASE_DIRS ${CMAKE_CURRENT_SOURCE_DIR} FILES ${arg_HEADERS}
+                 FILE_SET alone TYPE HEADERS BASE_DIRS ${CMAKE_CURRENT_SOURCE_DIR} FILES ${alone})
+  set_target_properties(${target} PROPERTIES INTERFACE_HEADER_SETS_TO_VERIFY alone)
   target_link_libraries(${target} ${scope} ${arg_LINK})
   if(arg_PRECOMPILE AND PROJECT_IS_TOP_LEVEL)  # the packaging test builds without, so that no include goes missing
     target_precompile_headers(${target} PRIVATE ${arg_PRECOMPILE})
@@ -37,7 +45,8 @@ function(octupole_add_library component)
   install(TARGETS ${target} EXPORT octupole-${component}
           LIBRARY COMPONENT libraries NAMELINK_COMPONENT development
           ARCHIVE COMPONENT development
-          FILE_SET HEADERS COMPONENT development)
+          FILE_SET HEADERS COMPONENT development
+          FILE_SET alone COMPONENT development)
   install(EXPORT octupole-${component} NAMESPACE octupole:: COMPONENT development
           FILE octupole-${component}-targets.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/octupole)
   if(NOT BUILD_SHARED_LIBS)  # a static library leaves it to its users to link what it uses inside

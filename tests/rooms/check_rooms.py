@@ -6,7 +6,8 @@ usage: check_rooms.py ROOT
 Prints each line that breaks a rule, and then exits 1:
 - a room includes only itself and the rooms that it may use;
 - what lies in a folder internal/ is included by its own layer only, and by no public header;
-- a library is included only where the table below allows it.
+- a library is included only where the table below allows it;
+- a source that has a header includes it first, so that the header is compiled alone.
 """
 
 import pathlib
@@ -93,9 +94,16 @@ def check(root):
             if file.suffix not in (".h", ".cc"):
                 continue
             is_public = file.suffix == ".h" and file.parent == folder
+            own = file.with_suffix(".h")
+            is_first = file.suffix == ".cc" and own.exists()
             for number, line in enumerate(file.read_text().splitlines(), 1):
                 match = INCLUDE.match(line)
-                problem = match and problem_of(folder.name, layer, is_public, match.group(1), layer_of)
+                if not match:
+                    continue
+                problem = problem_of(folder.name, layer, is_public, match.group(1), layer_of)
+                if is_first and match.group(1) != str(own.relative_to(root / layer)):
+                    problem = f"{own.name} has to be included first"
+                is_first = False
                 if problem:
                     problems.append(f"{file}:{number}: {problem}: {line.strip()}")
     return problems

@@ -55,6 +55,12 @@ class Rooms(unittest.TestCase):
                 self.assertTrue(any(message in problem for problem in problems), problems)
             before += 1
 
+    def test_a_header_that_is_not_included_first_is_noticed(self):
+        path = self.root / "lib/octupole/mesh/tet_mesh.cc"
+        path.write_text("#include <vector>\n" + path.read_text())
+        self.assertEqual(len(check_rooms.check(self.root)), 1)
+        self.assertIn("tet_mesh.h has to be included first", check_rooms.check(self.root)[0])
+
     def test_a_folder_that_is_no_room_is_noticed(self):
         (self.root / "lib/octupole/misc").mkdir()
         self.assertIn("no room", check_rooms.check(self.root)[0])

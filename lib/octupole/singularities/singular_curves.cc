@@ -53,7 +53,7 @@ Turn MeasureTurn(const std::array<Vector3d, 3>& points, const std::array<const M
 }
 
 // A triangle as a face of a tetrahedron.
-struct Passage {
+struct CurvePassage {
   int tet;
   int triangle;
   bool is_done;
@@ -94,12 +94,12 @@ class Tracer {
   SingularCurves result() && { return std::move(result_); }
 
  private:
-  static bool IsBefore(const Passage& p, const Passage& q) {
+  static bool IsBefore(const CurvePassage& p, const CurvePassage& q) {
     return std::pair(p.tet, p.triangle) < std::pair(q.tet, q.triangle);
   }
 
   std::size_t FindPassage(int tet, int triangle) const {
-    return std::lower_bound(passages_.begin(), passages_.end(), Passage{tet, triangle, false}, IsBefore) -
+    return std::lower_bound(passages_.begin(), passages_.end(), CurvePassage{tet, triangle, false}, IsBefore) -
            passages_.begin();
   }
 
@@ -120,7 +120,7 @@ class Tracer {
   }
 
   // The place, among the tetrahedron's vertices in ascending order, of the one that the triangle leaves out.
-  int OppositePlace(const Passage& passage) const {
+  int OppositePlace(const CurvePassage& passage) const {
     std::array<int, 4> vertices = mesh_.tets[passage.tet];
     std::sort(vertices.begin(), vertices.end());
     const std::array<int, 3>& face = triangles_[passage.triangle].vertices;
@@ -139,7 +139,7 @@ class Tracer {
     }
   }
 
-  int OtherTet(const Passage& passage) const {
+  int OtherTet(const CurvePassage& passage) const {
     const std::vector<int>& tets = triangles_[passage.triangle].tets;
     return tets[0] == passage.tet ? tets[1] : tets[0];
   }
@@ -157,7 +157,7 @@ class Tracer {
         if (walk.end == CurveEnd::kNode) walk.node = Centre(first, last);
         return walk;
       }
-      Passage& exit = passages_[passage == first ? first + 1 : first];
+      CurvePassage& exit = passages_[passage == first ? first + 1 : first];
       exit.is_done = true;
       // Faces that leave out places of equal parity turn alike, seen from outside; the curve sees one from inside.
       if ((OppositePlace(passages_[passage]) + OppositePlace(exit)) % 2 == 0) direction = -direction;
@@ -229,7 +229,7 @@ class Tracer {
   const TetMesh& mesh_;
   const std::vector<SingularTriangle>& triangles_;
   std::vector<Turn> turns_;
-  std::vector<Passage> passages_;
+  std::vector<CurvePassage> passages_;
   SingularCurves result_;
 };
 
