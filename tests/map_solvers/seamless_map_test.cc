@@ -104,6 +104,37 @@ TEST(SeamlessMap, RoundsToAnIntegerGrid) {
   }
 }
 
+// What rounding turns over on meshes as coarse as these takes more vertices to turn back, and what is whole stays so.
+// Which of them rounding turns over is a matter of the last digits.
+TEST(SeamlessMap, RefinesWhatRoundingTurnsOver) {
+  struct Case {
+    int cells;
+    double height, size;
+  };
+  int num_mended = 0;
+  for (const Case& c : {Case{6, 1, 1.27}, {6, 2, 1.9}, {8, 1, 0.79}, {8, 1, 1.1}}) {
+    const TetMesh mesh = MakeCylinderMesh(c.cells, 2, c.height);
+    const std::vector<Eigen::Matrix3d> frames = SolveField<3>(mesh).frames;
+    MapOptions options;
+    options.size = c.size;
+    const std::size_t num_tets = SolveSeamlessMap(mesh, frames, options).domain.mesh.tets.size();
+    options.integer = true;
+    const SeamlessMap map = SolveSeamlessMap(mesh, frames, options);
+    for (const BoundarySheets::Face& face : map.domain.sheets.faces) {
+      const double value = map.parameters[face.tet][(face.corner + 1) % 4][face.axis];
+      EXPECT_NEAR(value, std::round(value), 1e-12);
+    }
+    EXPECT_EQ(map.num_rounded, 10);
+    EXPECT_EQ(map.flipped.empty(), map.termination == ceres::CONVERGENCE);
+    if (!map.flipped.empty() || map.domain.mesh.tets.size() == num_tets) continue;
+    ++num_mended;
+    const MapQuality quality = MeasureMap(map.domain.mesh, map.parameters, map.size);
+    EXPECT_GT(quality.parameter_volume, 0.5);
+    EXPECT_NEAR(quality.parameter_volume, std::round(quality.parameter_volume), 1e-9);
+  }
+  EXPECT_GT(num_mended, 0);
+}
+
 // A map is its own fit: started from there, it comes back, up to shifts, and where H is another one, scaled.
 TEST(SeamlessMap, BeginsWithAnEarlierOne) {
   const TetMesh mesh = MakeCylinderMesh(8, 6, 2);

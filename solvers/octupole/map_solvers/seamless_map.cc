@@ -227,15 +227,27 @@ class MapSolver {
     return second;
   }
 
-  // Rounds the unknowns that must be whole, the surest first, a twelfth of those open at a time and all that are nearly
+  // Those that must be whole and are, but for rounding.
+  void HoldWhole() {
+    constexpr double kWhole = 1e-6;
+    for (std::size_t j = 0; j < y_.size(); ++j) {
+      const double whole = std::round(y_[j]);
+      if (!domain_.unknowns.is_integer[j] || std::abs(y_[j] - whole) > kWhole) continue;
+      y_[j] = whole;
+      is_held_[j] = true;
+    }
+  }
+
+  // Rounds the unknowns that must be whole and are not held yet, the surest first, a twelfth of those open at a time and all that are nearly
   // whole; fits and unfolds the rest after each batch. A batch that leaves more turned over than before is undone and
   // halved; a single unknown goes to its other side. What fails on both stays on the better one.
   ceres::TerminationType Round() {
     std::vector<int> open;
     for (std::size_t j = 0; j < y_.size(); ++j) {
-      if (domain_.unknowns.is_integer[j]) open.push_back(static_cast<int>(j));
+      if (domain_.unknowns.is_integer[j] && !is_held_[j]) open.push_back(static_cast<int>(j));
     }
-    num_rounded_ = static_cast<int>(open.size());
+    num_rounded_ = static_cast<int>(
+        std::count(domain_.unknowns.is_integer.begin(), domain_.unknowns.is_integer.end(), true));
     std::size_t num_flipped = FindFlipped().size(), limit = open.size();
     while (!open.empty() && !was_ended_) {
       constexpr double kNearlyWhole = 0.02;
@@ -348,7 +360,8 @@ SeamlessMap SolveSeamlessMap(const TetMesh& mesh, const std::vector<Eigen::Matri
 
   Vector begin;
   double open_volume = 0;
-  for (int round = 0;; ++round) {
+  bool is_rounded = false;
+  for (int round = 0, first_round = 0;; ++round) {
     const Clock::time_point ready = Clock::now();
     MapSolver solver(options, map.domain, map.size, map.num_iterations, start);
     if (round == 0) {
@@ -358,31 +371,42 @@ SeamlessMap SolveSeamlessMap(const TetMesh& mesh, const std::vector<Eigen::Matri
     } else {
       solver.Begin(std::move(begin));
     }
+    if (is_rounded) solver.HoldWhole();
     map.linear_seconds += SecondsSince(ready);
 
     const Clock::time_point fitted = Clock::now();
     map.termination = round == 0 ? solver.Unfold(true) : solver.UnfoldTwice();
     // What no step has turned back may need more vertices to move.
-    constexpr int kMaxRounds = 4;
-    constexpr std::size_t kFew = 20;
-    const std::vector<int> open = solver.FindOpen();
-    const double volume = solver.VolumeOf(open);
-    const bool has_helped = round == 0 || open.size() <= kFew || 2 * volume <= open_volume;
-    const bool is_last =
-        map.termination != ceres::NO_CONVERGENCE || round == kMaxRounds || !has_helped || options.max_iterations == 0;
-    open_volume = volume;
-    if (is_last && options.integer) {
+    const auto is_last = [&] {
+      constexpr int kMaxRounds = 4;
+      constexpr std::size_t kFew = 20;
+      const std::vector<int> open = solver.FindOpen();
+      const double volume = solver.VolumeOf(open);
+      const bool has_helped = round == first_round || open.size() <= kFew || 2 * volume <= open_volume;
+      open_volume = volume;
+      return map.termination != ceres::NO_CONVERGENCE || round == first_round + kMaxRounds || !has_helped ||
+             options.max_iterations == 0;
+    };
+    const auto round_integers = [&] {
       map.termination = solver.Round();
       map.num_rounded = solver.num_rounded();
+    };
+    if (is_rounded) round_integers();  // what the finer map has new
+    bool is_done = is_last();
+    if (is_done && options.integer && !is_rounded) {
+      round_integers();
+      is_rounded = true;
+      first_round = round;
+      is_done = is_last();
     }
     map.num_iterations = solver.num_iterations();
     map.parameters = internal::ParametersAtCorners(map.domain, solver.y());
-    if (is_last) {
+    if (is_done) {
       map.flipped = solver.FindFlipped();
       map.foldover_seconds += SecondsSince(fitted);
       return map;
     }
-    MapDomain finer = RefineMapDomain(map.domain, open);
+    MapDomain finer = RefineMapDomain(map.domain, solver.FindOpen());
     begin = internal::TransferMap(map.domain, map.parameters, finer);
     for (int& parent : finer.parents) parent = map.domain.parents[parent];
     map.domain = std::move(finer);
