@@ -5,7 +5,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <random>
 #include <set>
 #include <stdexcept>
@@ -210,6 +212,40 @@ TEST(MapUnknowns, HoldInterfacesAndFeatures) {
   BoundaryOptions ignored;
   ignored.regions = RegionUse::kIgnore;
   EXPECT_EQ(MakeMapDomain(mesh, ConstantFrames(mesh), ignored).sheets.sheets.size(), 6u);
+}
+
+// A curve comes up from the bottom, turns around and ends on a ledge a cell below, from above: it has valence 3 up to
+// there and 5 on the last edge. In a map it would go on upwards, so that the ledge has to give way at its end.
+TEST(MapDomain, ReleasesTheEndOfACurveThatEndsBackwards) {
+  const TetMesh box = MakeBoxMesh({5, 3, 100}, {5, 3, 100});
+  TetMesh mesh;
+  std::map<int, int> number;
+  for (std::array<int, 4> tet : box.tets) {
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (const int v : tet) middle += box.points[v] / 4;
+    if (middle.x() > 2 && middle.z() < 98) continue;
+    for (int& v : tet) {
+      const auto [place, is_new] = number.emplace(v, static_cast<int>(mesh.points.size()));
+      if (is_new) mesh.points.push_back(box.points[v]);
+      v = place->second;
+    }
+    mesh.tets.push_back(tet);
+  }
+  Frames frames;
+  for (const Eigen::Vector3d& p : mesh.points) {
+    const auto around = [&](double x) { return std::atan2(p.y() - 1.6, p.x() - x); };
+    const double angle = p.z() < 98.5 ? (around(1.4) - around(3.4)) / 4 : 0;
+    frames.push_back(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix());
+  }
+  const MapDomain domain = MakeMapDomain(mesh, frames);
+  const auto count = [&](int valence) {
+    return std::count_if(domain.singular_edges.begin(), domain.singular_edges.end(),
+                         [&](const SingularEdge& edge) { return edge.valence == valence; });
+  };
+  EXPECT_GE(count(3), 100);
+  EXPECT_EQ(count(5), 1);
+  ASSERT_EQ(domain.released_vertices.size(), 1u);
+  EXPECT_EQ(domain.mesh.points[*domain.released_vertices.begin()], Eigen::Vector3d(3, 2, 98));
 }
 
 // A triangle of the bottom between two edges of one crease has all corners on the front, too: it would be flat, unless

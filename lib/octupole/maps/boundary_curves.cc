@@ -40,7 +40,12 @@ class CurveTaker {
     std::vector<bool> is_done(edges_.size(), false);
     bool has_changed = false;
     for (const auto& [v, edges] : edges_of_) {
-      if (edges.size() != 1 || is_done[edges[0]] || !EndsAlong(v)) continue;
+      if (edges.size() != 1) continue;
+      if (const std::optional<int> end = FindBackwardEnd(v)) {
+        framed_.released_vertices.insert(*end);
+        has_changed = true;
+      }
+      if (is_done[edges[0]] || !EndsAlong(v)) continue;
       const std::vector<int> curve = Trace(v, &is_done);
       const bool ends_at_node = faces_at_.count(curve.back()) == 0;
       if (!ends_at_node && Take(curve)) {
@@ -66,6 +71,36 @@ class CurveTaker {
       const auto axis = axes.find(face->tet);
       return axis == axes.end() || axis->second == face->axis;
     });
+  }
+
+  // Whether the one singular edge at v ends on the boundary as on a plane across it.
+  bool EndsAcross(int v) const {
+    return faces_at_.count(v) > 0 && framed_.released_vertices.count(v) == 0 && !EndsAlong(v);
+  }
+
+  // Of a curve that begins at v and ends so, too, but with the other valence, the end of the valence that it has for a
+  // small part of its length only.
+  std::optional<int> FindBackwardEnd(int v) const {
+    if (!EndsAcross(v)) return std::nullopt;
+    const int first = v;
+    std::size_t i = edges_of_.at(v)[0];
+    const int valence = edges_[i].valence;
+    double length = 0, opposite_length = 0;
+    for (;;) {
+      const auto [a, b] = edges_[i].vertices;
+      const double more = (framed_.mesh.points[a] - framed_.mesh.points[b]).norm();
+      if (edges_[i].valence == valence) length += more;
+      if (edges_[i].valence == 8 - valence) opposite_length += more;
+      v = v == a ? b : a;
+      const std::vector<std::size_t>& there = edges_of_.at(v);
+      if (there.size() != 2) break;
+      i = there[0] == i ? there[1] : there[0];
+    }
+    if (edges_of_.at(v).size() != 1 || edges_[i].valence != 8 - valence || !EndsAcross(v)) return std::nullopt;
+    constexpr double kSmallPart = 0.05;
+    if (length < kSmallPart * opposite_length) return first;
+    if (opposite_length < kSmallPart * length) return v;
+    return std::nullopt;
   }
 
   // The vertices of the curve that begins at v, up to its end or a node.

@@ -14,6 +14,11 @@ namespace octupole {
 /// those of the two sides of the crease, so that the curve would lie in the boundary. This takes such curves to the
 /// boundary, edge by edge, by changing the matches across the faces between: the crease then goes on where the curve
 /// went. Where there is no way, because the curve is more than an edge below, the vertex of the end is released.
+///
+/// No map has a curve either that ends on the boundary as on a plane across it at both ends, but with valence 3 at the
+/// one and 5 at the other: as it runs along the curve one way only, it would come to one of the planes from outside.
+/// Where it has one of the two for less than a twentieth of the other's length, the vertex of that end is released: the
+/// boundary gives way by no more than that.
 /// \param are_nodes_final if not, curves from a node inside are left to SplitForMap, which may give them another end.
 /// \param singular_edges, sheets of the mesh; not up to date any more if something was changed, which is what is
 ///     returned.

@@ -238,16 +238,17 @@ class MapSolver {
     }
   }
 
-  // Rounds the unknowns that must be whole and are not held yet, the surest first, a twelfth of those open at a time and all that are nearly
-  // whole; fits and unfolds the rest after each batch. A batch that leaves more turned over than before is undone and
-  // halved; a single unknown goes to its other side. What fails on both stays on the better one.
+  // Rounds the unknowns that must be whole and are not held yet, the surest first, a twelfth of those open at a time
+  // and all that are nearly whole; fits and unfolds the rest after each batch. A batch that leaves more turned over
+  // than before is undone and halved; a single unknown goes to its other side. What fails on both stays on the better
+  // one.
   ceres::TerminationType Round() {
     std::vector<int> open;
     for (std::size_t j = 0; j < y_.size(); ++j) {
       if (domain_.unknowns.is_integer[j] && !is_held_[j]) open.push_back(static_cast<int>(j));
     }
-    num_rounded_ = static_cast<int>(
-        std::count(domain_.unknowns.is_integer.begin(), domain_.unknowns.is_integer.end(), true));
+    num_rounded_ =
+        static_cast<int>(std::count(domain_.unknowns.is_integer.begin(), domain_.unknowns.is_integer.end(), true));
     std::size_t num_flipped = FindFlipped().size(), limit = open.size();
     while (!open.empty() && !was_ended_) {
       constexpr double kNearlyWhole = 0.02;
