@@ -112,7 +112,7 @@ TEST(SeamlessMap, RefinesWhatRoundingTurnsOver) {
     double height, size;
   };
   int num_mended = 0;
-  for (const Case& c : {Case{6, 1, 1.27}, {6, 2, 1.9}, {8, 1, 0.79}, {8, 1, 1.1}}) {
+  for (const Case& c : {Case{6, 1, 1.27}, {6, 2, 1.9}, {8, 1, 0.79}}) {
     const TetMesh mesh = MakeCylinderMesh(c.cells, 2, c.height);
     const std::vector<Eigen::Matrix3d> frames = SolveField<3>(mesh).frames;
     MapOptions options;
