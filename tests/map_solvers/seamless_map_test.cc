@@ -87,6 +87,13 @@ TEST(SeamlessMap, OfARibIsFlatNowhere) {
   EXPECT_TRUE(map.flipped.empty());
 }
 
+void ExpectWholeSheets(const SeamlessMap& map) {
+  for (const BoundarySheets::Face& face : map.domain.sheets.faces) {
+    const double value = map.parameters[face.tet][(face.corner + 1) % 4][face.axis];
+    EXPECT_NEAR(value, std::round(value), 1e-12);
+  }
+}
+
 // Two boxes of 3 x 2 x 2 with cells of 0.43: 7 x 5 x 5 hexahedra each.
 TEST(SeamlessMap, RoundsToAnIntegerGrid) {
   const TetMesh mesh = TwoBoxes();
@@ -98,10 +105,7 @@ TEST(SeamlessMap, RoundsToAnIntegerGrid) {
   EXPECT_EQ(map.num_rounded, 2 * 6);
   EXPECT_EQ(map.domain.unknowns.num_fractional, 0);
   EXPECT_NEAR(MeasureMap(map.domain.mesh, map.parameters, map.size).parameter_volume, 2 * 7 * 5 * 5, 1e-9);
-  for (const BoundarySheets::Face& face : map.domain.sheets.faces) {
-    const double value = map.parameters[face.tet][(face.corner + 1) % 4][face.axis];
-    EXPECT_NEAR(value, std::round(value), 1e-12);
-  }
+  ExpectWholeSheets(map);
 }
 
 // What rounding turns over on meshes as coarse as these takes more vertices to turn back, and what is whole stays so.
@@ -120,10 +124,7 @@ TEST(SeamlessMap, RefinesWhatRoundingTurnsOver) {
     const std::size_t num_tets = SolveSeamlessMap(mesh, frames, options).domain.mesh.tets.size();
     options.integer = true;
     const SeamlessMap map = SolveSeamlessMap(mesh, frames, options);
-    for (const BoundarySheets::Face& face : map.domain.sheets.faces) {
-      const double value = map.parameters[face.tet][(face.corner + 1) % 4][face.axis];
-      EXPECT_NEAR(value, std::round(value), 1e-12);
-    }
+    ExpectWholeSheets(map);
     EXPECT_EQ(map.num_rounded, 10);
     EXPECT_EQ(map.flipped.empty(), map.termination == ceres::CONVERGENCE);
     if (!map.flipped.empty() || map.domain.mesh.tets.size() == num_tets) continue;

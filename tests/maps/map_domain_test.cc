@@ -5,9 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <random>
 #include <set>
 #include <stdexcept>
@@ -18,6 +16,7 @@
 #include "octupole/mesh/box_mesh.h"
 #include "octupole/mesh/mesh_topology.h"
 #include "octupole/mesh/tet_neighbours.h"
+#include "part_of_mesh.h"
 #include "random_inputs.h"
 #include "rib_mesh.h"
 #include "test_files.h"
@@ -217,20 +216,8 @@ TEST(MapUnknowns, HoldInterfacesAndFeatures) {
 // A curve comes up from the bottom, turns around and ends on a ledge a cell below, from above: it has valence 3 up to
 // there and 5 on the last edge. In a map it would go on upwards, so that the ledge has to give way at its end.
 TEST(MapDomain, ReleasesTheEndOfACurveThatEndsBackwards) {
-  const TetMesh box = MakeBoxMesh({5, 3, 100}, {5, 3, 100});
-  TetMesh mesh;
-  std::map<int, int> number;
-  for (std::array<int, 4> tet : box.tets) {
-    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-    for (const int v : tet) middle += box.points[v] / 4;
-    if (middle.x() > 2 && middle.z() < 98) continue;
-    for (int& v : tet) {
-      const auto [place, is_new] = number.emplace(v, static_cast<int>(mesh.points.size()));
-      if (is_new) mesh.points.push_back(box.points[v]);
-      v = place->second;
-    }
-    mesh.tets.push_back(tet);
-  }
+  const TetMesh mesh =
+      PartOf(MakeBoxMesh({5, 3, 100}, {5, 3, 100}), [](const Eigen::Vector3d& p) { return p.x() <= 2 || p.z() >= 98; });
   Frames frames;
   for (const Eigen::Vector3d& p : mesh.points) {
     const auto around = [&](double x) { return std::atan2(p.y() - 1.6, p.x() - x); };

@@ -102,7 +102,7 @@ def check(root):
                     continue
                 problem = problem_of(folder.name, layer, is_public, match.group(1), layer_of)
                 if is_first and match.group(1) != str(own.relative_to(root / layer)):
-                    problem = f"{own.name} has to be included first"
+                    problem = problem or f"{own.name} has to be included first"
                 is_first = False
                 if problem:
                     problems.append(f"{file}:{number}: {problem}: {line.strip()}")

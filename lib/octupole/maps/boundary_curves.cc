@@ -82,38 +82,44 @@ class CurveTaker {
   // small part of its length only.
   std::optional<int> FindBackwardEnd(int v) const {
     if (!EndsAcross(v)) return std::nullopt;
-    const int first = v;
-    std::size_t i = edges_of_.at(v)[0];
-    const int valence = edges_[i].valence;
+    const int valence = edges_[edges_of_.at(v)[0]].valence;
     double length = 0, opposite_length = 0;
-    for (;;) {
+    int last = v, last_valence = valence;
+    Walk(v, [&](std::size_t i, int end) {
       const auto [a, b] = edges_[i].vertices;
+      last = end;
+      last_valence = edges_[i].valence;
       const double more = (framed_.mesh.points[a] - framed_.mesh.points[b]).norm();
-      if (edges_[i].valence == valence) length += more;
-      if (edges_[i].valence == 8 - valence) opposite_length += more;
+      if (last_valence == valence) length += more;
+      if (last_valence == 8 - valence) opposite_length += more;
+    });
+    if (edges_of_.at(last).size() != 1 || last_valence != 8 - valence || !EndsAcross(last)) return std::nullopt;
+    constexpr double kSmallPart = 0.05;
+    if (length < kSmallPart * opposite_length) return v;
+    if (opposite_length < kSmallPart * length) return last;
+    return std::nullopt;
+  }
+
+  // Calls use(edge, its farther vertex) along the curve that begins at v, up to its end or a node.
+  template <typename Use>
+  void Walk(int v, const Use& use) const {
+    for (std::size_t i = edges_of_.at(v)[0];;) {
+      const auto [a, b] = edges_[i].vertices;
       v = v == a ? b : a;
+      use(i, v);
       const std::vector<std::size_t>& there = edges_of_.at(v);
-      if (there.size() != 2) break;
+      if (there.size() != 2) return;
       i = there[0] == i ? there[1] : there[0];
     }
-    if (edges_of_.at(v).size() != 1 || edges_[i].valence != 8 - valence || !EndsAcross(v)) return std::nullopt;
-    constexpr double kSmallPart = 0.05;
-    if (length < kSmallPart * opposite_length) return first;
-    if (opposite_length < kSmallPart * length) return v;
-    return std::nullopt;
   }
 
   // The vertices of the curve that begins at v, up to its end or a node.
   std::vector<int> Trace(int v, std::vector<bool>* is_done) const {
     std::vector<int> curve = {v};
-    for (std::size_t i = edges_of_.at(v)[0]; !(*is_done)[i];) {
+    Walk(v, [&](std::size_t i, int end) {
       (*is_done)[i] = true;
-      const auto [a, b] = edges_[i].vertices;
-      v = v == a ? b : a;
-      curve.push_back(v);
-      const std::vector<std::size_t>& there = edges_of_.at(v);
-      if (there.size() == 2) i = there[0] == i ? there[1] : there[0];
-    }
+      curve.push_back(end);
+    });
     return curve;
   }
 

@@ -17,8 +17,7 @@ namespace octupole {
 ///
 /// No map has a curve either that ends on the boundary as on a plane across it at both ends, but with valence 3 at the
 /// one and 5 at the other: as it runs along the curve one way only, it would come to one of the planes from outside.
-/// Where it has one of the two for less than a twentieth of the other's length, the vertex of that end is released: the
-/// boundary gives way by no more than that.
+/// Where it has one of the two for less than a twentieth of the other's length, the vertex of that end is released.
 /// \param are_nodes_final if not, curves from a node inside are left to SplitForMap, which may give them another end.
 /// \param singular_edges, sheets of the mesh; not up to date any more if something was changed, which is what is
 ///     returned.

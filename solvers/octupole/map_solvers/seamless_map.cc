@@ -127,7 +127,6 @@ class MapSolver {
   const Vector& y() const { return y_; }
   bool was_ended() const { return was_ended_; }
   int num_iterations() const { return num_iterations_; }
-  int num_rounded() const { return num_rounded_; }
 
   // What fits draw the Jacobians to, instead of the frames.
   void SetTargets(std::vector<Eigen::Matrix3d> jacobians) {
@@ -247,8 +246,6 @@ class MapSolver {
     for (std::size_t j = 0; j < y_.size(); ++j) {
       if (domain_.unknowns.is_integer[j] && !is_held_[j]) open.push_back(static_cast<int>(j));
     }
-    num_rounded_ =
-        static_cast<int>(std::count(domain_.unknowns.is_integer.begin(), domain_.unknowns.is_integer.end(), true));
     std::size_t num_flipped = FindFlipped().size(), limit = open.size();
     while (!open.empty() && !was_ended_) {
       constexpr double kNearlyWhole = 0.02;
@@ -344,7 +341,6 @@ class MapSolver {
   std::vector<Eigen::Matrix3d> targets_;
   const MapSystem whole_;
   MapEnergy whole_energy_;
-  int num_rounded_ = 0;
   bool was_ended_ = false;
 };
 
@@ -377,25 +373,22 @@ SeamlessMap SolveSeamlessMap(const TetMesh& mesh, const std::vector<Eigen::Matri
 
     const Clock::time_point fitted = Clock::now();
     map.termination = round == 0 ? solver.Unfold(true) : solver.UnfoldTwice();
-    // What no step has turned back may need more vertices to move.
+    // What no step has turned back may need more vertices to move; not those that have not helped.
+    std::vector<int> open;
     const auto is_last = [&] {
       constexpr int kMaxRounds = 4;
       constexpr std::size_t kFew = 20;
-      const std::vector<int> open = solver.FindOpen();
+      open = solver.FindOpen();
       const double volume = solver.VolumeOf(open);
       const bool has_helped = round == first_round || open.size() <= kFew || 2 * volume <= open_volume;
       open_volume = volume;
       return map.termination != ceres::NO_CONVERGENCE || round == first_round + kMaxRounds || !has_helped ||
              options.max_iterations == 0;
     };
-    const auto round_integers = [&] {
-      map.termination = solver.Round();
-      map.num_rounded = solver.num_rounded();
-    };
-    if (is_rounded) round_integers();  // what the finer map has new
+    if (is_rounded) map.termination = solver.Round();  // what the finer map has new
     bool is_done = is_last();
     if (is_done && options.integer && !is_rounded) {
-      round_integers();
+      map.termination = solver.Round();
       is_rounded = true;
       first_round = round;
       is_done = is_last();
@@ -403,11 +396,13 @@ SeamlessMap SolveSeamlessMap(const TetMesh& mesh, const std::vector<Eigen::Matri
     map.num_iterations = solver.num_iterations();
     map.parameters = internal::ParametersAtCorners(map.domain, solver.y());
     if (is_done) {
+      const std::vector<bool>& is_integer = map.domain.unknowns.is_integer;
+      if (is_rounded) map.num_rounded = static_cast<int>(std::count(is_integer.begin(), is_integer.end(), true));
       map.flipped = solver.FindFlipped();
       map.foldover_seconds += SecondsSince(fitted);
       return map;
     }
-    MapDomain finer = RefineMapDomain(map.domain, solver.FindOpen());
+    MapDomain finer = RefineMapDomain(map.domain, open);
     begin = internal::TransferMap(map.domain, map.parameters, finer);
     for (int& parent : finer.parents) parent = map.domain.parents[parent];
     map.domain = std::move(finer);
