@@ -165,6 +165,7 @@ void RunMap(const MapArguments& arguments) {
       {"parameter_volume", quality.parameter_volume},
       {"integer", arguments.options.integer},
       {"rounded", map.num_rounded},
+      {"is_integer_grid", map.is_integer_grid},
       {"termination", ceres::TerminationTypeToString(map.termination)},
       {"iterations", map.num_iterations},
       {"obstacles", DescribeObstacles(obstacles)},
@@ -188,7 +189,7 @@ void RunMap(const MapArguments& arguments) {
     std::printf("stretch    5 and 95 %%: %.3g, %.3g\n", quality.stretch_5, quality.stretch_95);
     if (arguments.options.integer) {
       std::printf("integer    %d unknowns rounded; the map stands for %.6g hexahedra%s\n", map.num_rounded,
-                  quality.parameter_volume, map.flipped.empty() ? "" : ", but is not valid: see the obstacles");
+                  quality.parameter_volume, map.is_integer_grid ? "" : ", but is not valid: see the obstacles");
     }
     PrintObstacles(obstacles);
     std::printf("seconds    field %.2f, setup %.2f, linear %.2f, foldovers %.2f\n", field_seconds, map.setup_seconds,

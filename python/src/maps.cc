@@ -29,7 +29,7 @@ namespace {
 
 std::shared_ptr<SeamlessMap> SolveMap(const std::shared_ptr<TetMesh>& mesh, const py::object& frames,
                                       std::optional<double> size, bool integer, int max_iterations, int threads,
-                                      const py::object& callback) {
+                                      const std::shared_ptr<SeamlessMap>& start, const py::object& callback) {
   const std::vector<Eigen::Matrix3d> rotations = FramesFrom(frames, "frames");
   Progress progress(callback);
   MapOptions options;
@@ -40,6 +40,7 @@ std::shared_ptr<SeamlessMap> SolveMap(const std::shared_ptr<TetMesh>& mesh, cons
   options.integer = integer;
   options.max_iterations = max_iterations;
   options.num_threads = threads;
+  if (start) options.start = MeshMap{start->domain.mesh, start->parameters};
   options.callback = &progress;
   auto map = Unlocked([&] { return std::make_shared<SeamlessMap>(SolveSeamlessMap(*mesh, rotations, options)); });
   progress.ThrowError();
@@ -90,6 +91,8 @@ void AddMaps(py::module_* module) {
           "(k,) int32: tets that the map turns over or flattens")
       .def_property_readonly(
           "is_valid", [](const SeamlessMap& map) { return map.flipped.empty(); }, "whether there are none of them")
+      .def_readonly("is_integer_grid", &SeamlessMap::is_integer_grid,
+                    "whether all is whole, too, and the boundary held everywhere")
       .def("quality", &Quality, R"(quality(self)
 --
 
@@ -107,10 +110,11 @@ Writes a .hexex file, for libHexEx, or a .vtu file. Raises OSError if it cannot 
         return "<octupole.SeamlessMap: " + std::to_string(map.parameters.size()) + " tets, " +
                std::to_string(map.flipped.size()) + " flipped>";
       });
-  module->def("seamless_map", &SolveMap, py::arg("mesh"), py::arg("frames"), py::kw_only(),
-              py::arg("size") = py::none(), py::arg("integer") = false, py::arg("max_iterations") = 200,
-              py::arg("threads") = 1, py::arg("callback") = py::none(),
-              R"(seamless_map(mesh, frames, *, size=None, integer=False, max_iterations=200, threads=1, callback=None)
+  module->def(
+      "seamless_map", &SolveMap, py::arg("mesh"), py::arg("frames"), py::kw_only(), py::arg("size") = py::none(),
+      py::arg("integer") = false, py::arg("max_iterations") = 200, py::arg("threads") = 1,
+      py::arg("start") = py::none(), py::arg("callback") = py::none(),
+      R"(seamless_map(mesh, frames, *, size=None, integer=False, max_iterations=200, threads=1, start=None, callback=None)
 --
 
 A seamless map that follows a frame field: parameters whose gradients are the frames' axes over `size`, that go on across
@@ -121,7 +125,8 @@ frames: (n, 3, 3), one rotation per point with the axes as columns, such as the 
 size: the edge length of hexahedra; None for twice the mean edge length of the mesh.
 integer: an integer-grid map, rounded greedily; see docs/maps.md for how often that succeeds.
 max_iterations: of the search for a map that turns no tet over.
-callback: as of solve(); the energy is the foldover-free one.
+start: an earlier map of the mesh to begin with, whatever its size.
+callback: as of solve(); the energy is that of the least squares first, then the foldover-free one.
 
 Ctrl-C raises KeyboardInterrupt. Raises ValueError naming what is wrong.)");
 }

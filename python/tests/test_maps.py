@@ -19,6 +19,19 @@ def test_a_constant_field_maps_a_box_to_itself():
         np.testing.assert_allclose(np.linalg.norm(mesh.parameters[:, i] - mesh.parameters[:, j], axis=1), expected)
     assert mesh.quality()["parameter_volume"] == pytest.approx(12 / 0.5**3)
     assert mesh.obstacles() == []
+    assert not mesh.is_integer_grid
+
+
+def test_an_integer_grid_from_an_earlier_map():
+    first = octupole.seamless_map(BOX, CONSTANT, size=0.5)
+    iterations = []
+    second = octupole.seamless_map(
+        BOX, CONSTANT, size=1, integer=True, start=first, callback=lambda iteration, *_: iterations.append(iteration)
+    )
+    assert second.is_integer_grid and iterations[0] == 1
+    assert second.quality()["parameter_volume"] == pytest.approx(3 * 2 * 2)
+    with pytest.raises(ValueError, match="the start is a map of another mesh"):
+        octupole.seamless_map(octupole.box_mesh((2, 2, 2), (1.0, 1.0, 1.0)), np.broadcast_to(np.eye(3), (27, 3, 3)), start=first)
 
 
 def test_it_is_that_of_the_command(command, tmp_path):

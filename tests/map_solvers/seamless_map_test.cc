@@ -1,11 +1,15 @@
 #include "octupole/map_solvers/seamless_map.h"
 
+#include <ceres/iteration_callback.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "cylinder_mesh.h"
 #include "octupole/maps/map_obstacles.h"
@@ -85,6 +89,7 @@ TEST(SeamlessMap, OfARibIsFlatNowhere) {
   const SeamlessMap map = SolveSeamlessMap(mesh, SolveField<3>(mesh).frames);
   EXPECT_EQ(map.termination, ceres::CONVERGENCE);
   EXPECT_TRUE(map.flipped.empty());
+  EXPECT_FALSE(map.is_integer_grid);
 }
 
 void ExpectWholeSheets(const SeamlessMap& map) {
@@ -103,6 +108,7 @@ TEST(SeamlessMap, RoundsToAnIntegerGrid) {
   const SeamlessMap map = SolveSeamlessMap(mesh, ConstantFrames(mesh), options);
   EXPECT_TRUE(map.flipped.empty());
   EXPECT_EQ(map.num_rounded, 2 * 6);
+  EXPECT_TRUE(map.is_integer_grid);
   EXPECT_EQ(map.domain.unknowns.num_fractional, 0);
   EXPECT_NEAR(MeasureMap(map.domain.mesh, map.parameters, map.size).parameter_volume, 2 * 7 * 5 * 5, 1e-9);
   ExpectWholeSheets(map);
@@ -127,6 +133,7 @@ TEST(SeamlessMap, RefinesWhatRoundingTurnsOver) {
     ExpectWholeSheets(map);
     EXPECT_EQ(map.num_rounded, 10);
     EXPECT_EQ(map.flipped.empty(), map.termination == ceres::CONVERGENCE);
+    EXPECT_EQ(map.is_integer_grid, map.flipped.empty());
     if (!map.flipped.empty() || map.domain.mesh.tets.size() == num_tets) continue;
     ++num_mended;
     const MapQuality quality = MeasureMap(map.domain.mesh, map.parameters, map.size);
@@ -134,6 +141,81 @@ TEST(SeamlessMap, RefinesWhatRoundingTurnsOver) {
     EXPECT_NEAR(quality.parameter_volume, std::round(quality.parameter_volume), 1e-9);
   }
   EXPECT_GT(num_mended, 0);
+}
+
+// Ends after some calls, and keeps the summaries.
+class Listener final : public ceres::IterationCallback {
+ public:
+  Listener(int num_calls, ceres::CallbackReturnType wish) : num_calls_(num_calls), wish_(wish) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
+    summaries.push_back(summary);
+    return static_cast<int>(summaries.size()) < num_calls_ ? ceres::SOLVER_CONTINUE : wish_;
+  }
+
+  std::vector<ceres::IterationSummary> summaries;
+
+ private:
+  const int num_calls_;
+  const ceres::CallbackReturnType wish_;
+};
+
+// Axes that turn by a third of a radian along a box, so that no map follows them everywhere.
+TEST(SeamlessMap, ReportsTheCostOfTheLeastSquares) {
+  const TetMesh mesh = MakeBoxMesh({6, 3, 3}, {6, 3, 3});
+  std::vector<Eigen::Matrix3d> frames;
+  for (const Eigen::Vector3d& p : mesh.points) {
+    frames.push_back(Eigen::AngleAxisd(p.x() / 18, Eigen::Vector3d::UnitZ()).toRotationMatrix());
+  }
+  MapOptions options;
+  Listener listener(1000, ceres::SOLVER_CONTINUE);
+  options.callback = &listener;
+  const SeamlessMap map = SolveSeamlessMap(mesh, frames, options);
+  ASSERT_EQ(map.num_iterations, 0) << "nothing is turned over, so that all that is reported is of the fit";
+  ASSERT_FALSE(listener.summaries.empty());
+  for (const ceres::IterationSummary& summary : listener.summaries) EXPECT_GE(summary.cost_change, 0);
+  // All tetrahedra of a box mesh are of one volume.
+  double cost = 0;
+  for (std::size_t t = 0; t < map.parameters.size(); ++t) {
+    Eigen::Matrix3d edges, images;
+    for (int i = 0; i < 3; ++i) {
+      edges.col(i) = mesh.points[mesh.tets[t][i + 1]] - mesh.points[mesh.tets[t][0]];
+      images.col(i) = map.parameters[t][i + 1] - map.parameters[t][0];
+    }
+    cost += (map.size * images * edges.inverse() - map.domain.combed.frames[t].transpose()).squaredNorm();
+  }
+  EXPECT_GT(cost, 0.1);
+  EXPECT_NEAR(listener.summaries.back().cost, cost, 1e-9 * cost);
+}
+
+// In the fit, against foldovers, while it rounds: whatever is reached is a map, only not a good one.
+TEST(SeamlessMap, EndsWhenTheCallbackWants) {
+  const TetMesh mesh = MakeCylinderMesh(6, 2, 1);
+  const std::vector<Eigen::Matrix3d> frames = SolveField<3>(mesh).frames;
+  MapOptions options;
+  options.size = 1.27;
+  options.integer = true;
+  Listener all(1000000, ceres::SOLVER_CONTINUE);
+  options.callback = &all;
+  EXPECT_TRUE(SolveSeamlessMap(mesh, frames, options).is_integer_grid);
+  const int num_calls = static_cast<int>(all.summaries.size());
+  for (const int k : {1, 2, num_calls / 4, num_calls / 2, num_calls}) {
+    for (const auto& [wish, termination] : {std::pair(ceres::SOLVER_ABORT, ceres::USER_FAILURE),
+                                            {ceres::SOLVER_TERMINATE_SUCCESSFULLY, ceres::USER_SUCCESS}}) {
+      Listener some(k, wish);
+      options.callback = &some;
+      const SeamlessMap map = SolveSeamlessMap(mesh, frames, options);
+      EXPECT_EQ(map.termination, termination) << k;
+      EXPECT_EQ(static_cast<int>(some.summaries.size()), k);
+      EXPECT_TRUE(k == num_calls || !map.is_integer_grid) << k;
+      for (const BoundarySheets::Face& face : map.domain.sheets.faces) {
+        if (face.is_released) continue;
+        const auto& corners = map.parameters[face.tet];
+        for (int i = 1; i < 4; ++i) {
+          EXPECT_NEAR(corners[(face.corner + i) % 4][face.axis], corners[(face.corner + 1) % 4][face.axis], 1e-12);
+        }
+      }
+    }
+  }
 }
 
 // A map is its own fit: started from there, it comes back, up to shifts, and where H is another one, scaled.

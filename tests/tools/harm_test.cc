@@ -7,6 +7,7 @@
 
 #include <fstream>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "command_line.h"
@@ -178,13 +179,16 @@ TEST_F(Harm, AFullDiskLeavesWhatWasThereAndNothingElse) {
 }
 
 // A batch system's signal, and Ctrl-C.
-TEST_F(Harm, AnInterruptedSolverWritesTheFieldAndSaysSo) {
+TEST_F(Harm, AnInterruptedSolverWritesWhatIsReachedAndSaysSo) {
   for (const auto& [signal, exit_code] : {std::pair("INT", 130), std::pair("TERM", 143)}) {
-    const Outcome outcome = Run("field " + Bracket() + " --solver cgnr -o f.vtu", Interrupting(signal));
-    EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr("interrupted; the field reached so far is in f.vtu"));
-    EXPECT_FALSE(ReadText(folder_ / "f.vtu").empty());
-    std::filesystem::remove(folder_ / "f.vtu");
+    for (const auto& [command, what, file] :
+         {std::tuple("field --solver cgnr", "field", "f.vtu"), {"map --integer", "map", "f.hexex"}}) {
+      const Outcome outcome = Run(std::string(command) + " " + Bracket() + " -o " + file, Interrupting(signal));
+      EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
+      EXPECT_THAT(outcome.err, HasSubstr(std::string("interrupted; the ") + what + " reached so far is in " + file));
+      EXPECT_FALSE(ReadText(folder_ / file).empty());
+      std::filesystem::remove(folder_ / file);
+    }
   }
 }
 

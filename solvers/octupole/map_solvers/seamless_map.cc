@@ -95,17 +95,6 @@ std::vector<Eigen::Matrix3d> StartJacobians(const TetMesh& mesh, const MapDomain
   return jacobians;
 }
 
-// The least squares fit of the targets in the unknowns of the system, from x.
-void FitFrames(double tolerance, MapEnergy* energy, Vector* x) {
-  constexpr int kMaxIterations = 5000;
-  Vector gradient;
-  energy->EvaluateFrames(*x, &gradient);
-  for (double& g : gradient) g = -g;
-  Vector step(x->size(), 0);
-  SolveByConjugateGradients(energy, gradient, tolerance, kMaxIterations, &step);
-  for (std::size_t i = 0; i < x->size(); ++i) (*x)[i] += step[i];
-}
-
 constexpr double kFitTolerance = 1e-5;
 
 // A map on its way.
@@ -125,8 +114,8 @@ class MapSolver {
         whole_energy_(domain, whole_, size, &workers_) {}
 
   const Vector& y() const { return y_; }
-  bool was_ended() const { return was_ended_; }
   int num_iterations() const { return num_iterations_; }
+  int num_held() const { return static_cast<int>(std::count(is_held_.begin(), is_held_.end(), true)); }
 
   // What fits draw the Jacobians to, instead of the frames.
   void SetTargets(std::vector<Eigen::Matrix3d> jacobians) {
@@ -180,6 +169,7 @@ class MapSolver {
   // In neighbourhoods of what is turned over, larger and larger; then, if it is to be and not too much, everywhere and
   // from the beginning. The best of these remains.
   ceres::TerminationType Unfold(bool everywhere) {
+    if (ended_) return *ended_;
     constexpr int kEverywhere = -1;
     constexpr std::size_t kMaxEverywhere = 50000;
     const int last_iteration = num_iterations_ + options_.max_iterations;
@@ -198,17 +188,17 @@ class MapSolver {
       MapEnergy energy(domain_, system, size_, &workers_);
       Vector x = system.Part(y_);
       const int max_iterations = num_rings == kEverywhere ? 60 : 25;
-      const ceres::TerminationType termination = internal::Untangle(
-          {std::min(max_iterations, last_iteration - num_iterations_),
-           [&](double before, double after, const Vector& gradient) { return Report(before, after, gradient); }},
-          &energy, &x, &num_iterations_);
+      internal::Untangle({std::min(max_iterations, last_iteration - num_iterations_),
+                          [&](double before, double after, const Vector& gradient) {
+                            return Report(num_iterations_, before, after, gradient);
+                          }},
+                         &energy, &x, &num_iterations_);
       system.PutPart(x, &y_);
-      was_ended_ = termination == ceres::USER_FAILURE || termination == ceres::USER_SUCCESS;
       if (const std::size_t now = FindOpen().size(); now <= least) {
         least = now;
         best = y_;
       }
-      if (was_ended_) return termination;
+      if (ended_) return *ended_;
     }
     y_ = best;
     return FindOpen().empty() ? ceres::CONVERGENCE : ceres::NO_CONVERGENCE;
@@ -247,7 +237,7 @@ class MapSolver {
       if (domain_.unknowns.is_integer[j] && !is_held_[j]) open.push_back(static_cast<int>(j));
     }
     std::size_t num_flipped = FindFlipped().size(), limit = open.size();
-    while (!open.empty() && !was_ended_) {
+    while (!open.empty() && !ended_) {
       constexpr double kNearlyWhole = 0.02;
       const auto distance = [&](int j) { return std::abs(y_[j] - std::round(y_[j])); };
       std::sort(open.begin(), open.end(), [&](int a, int b) { return distance(a) < distance(b); });
@@ -278,7 +268,7 @@ class MapSolver {
       limit = 2 * count;
       open.erase(open.begin(), open.begin() + static_cast<std::ptrdiff_t>(count));
     }
-    if (was_ended_) return ceres::USER_FAILURE;
+    if (ended_) return *ended_;
     return FindOpen().empty() ? ceres::CONVERGENCE : ceres::NO_CONVERGENCE;
   }
 
@@ -304,6 +294,23 @@ class MapSolver {
     system.PutPart(x, &y_);
   }
 
+  // The least squares fit of the targets in the unknowns of the system, from x.
+  void FitFrames(double tolerance, MapEnergy* energy, Vector* x) {
+    if (ended_) return;
+    constexpr int kMaxIterations = 5000;
+    Vector gradient;
+    double cost = energy->EvaluateFrames(*x, &gradient);
+    for (double& g : gradient) g = -g;
+    Vector step(x->size(), 0);
+    int iteration = 0;
+    SolveByConjugateGradients(energy, gradient, tolerance, kMaxIterations, &step,
+                              [&](double gain, const Vector& residual) {
+                                cost -= gain;
+                                return Report(++iteration, cost + gain, cost, residual);
+                              });
+    for (std::size_t i = 0; i < x->size(); ++i) (*x)[i] += step[i];
+  }
+
   template <typename Rounding>
   void Hold(const std::vector<int>& batch, const Rounding& rounding) {
     for (const int j : batch) {
@@ -319,15 +326,19 @@ class MapSolver {
     for (const int j : batch) is_held_[j] = false;
   }
 
-  ceres::CallbackReturnType Report(double before, double after, const Vector& gradient) const {
-    if (options_.callback == nullptr) return ceres::SOLVER_CONTINUE;
+  // Whether to go on.
+  bool Report(int iteration, double before, double after, const Vector& gradient) {
+    if (options_.callback == nullptr) return true;
     ceres::IterationSummary summary;
-    summary.iteration = num_iterations_;
+    summary.iteration = iteration;
     summary.cost = after;
     summary.cost_change = before - after;
     for (const double g : gradient) summary.gradient_max_norm = std::max(summary.gradient_max_norm, std::abs(g));
     summary.cumulative_time_in_seconds = SecondsSince(start_);
-    return (*options_.callback)(summary);
+    const ceres::CallbackReturnType wish = (*options_.callback)(summary);
+    if (wish == ceres::SOLVER_ABORT) ended_ = ceres::USER_FAILURE;
+    if (wish == ceres::SOLVER_TERMINATE_SUCCESSFULLY) ended_ = ceres::USER_SUCCESS;
+    return !ended_;
   }
 
   const MapOptions& options_;
@@ -341,8 +352,16 @@ class MapSolver {
   std::vector<Eigen::Matrix3d> targets_;
   const MapSystem whole_;
   MapEnergy whole_energy_;
-  bool was_ended_ = false;
+  std::optional<ceres::TerminationType> ended_;  // by the callback
 };
+
+// Whether as many unknowns being whole makes all whole that has to be, on the boundary everywhere.
+bool IsWhole(const MapDomain& domain, int num_whole) {
+  const std::vector<bool>& is_integer = domain.unknowns.is_integer;
+  const std::vector<BoundarySheets::Face>& faces = domain.sheets.faces;
+  return num_whole == std::count(is_integer.begin(), is_integer.end(), true) && domain.unknowns.num_fractional == 0 &&
+         std::none_of(faces.begin(), faces.end(), [](const auto& face) { return face.is_released; });
+}
 
 }  // namespace
 
@@ -396,9 +415,9 @@ SeamlessMap SolveSeamlessMap(const TetMesh& mesh, const std::vector<Eigen::Matri
     map.num_iterations = solver.num_iterations();
     map.parameters = internal::ParametersAtCorners(map.domain, solver.y());
     if (is_done) {
-      const std::vector<bool>& is_integer = map.domain.unknowns.is_integer;
-      if (is_rounded) map.num_rounded = static_cast<int>(std::count(is_integer.begin(), is_integer.end(), true));
+      map.num_rounded = solver.num_held();
       map.flipped = solver.FindFlipped();
+      map.is_integer_grid = is_rounded && map.flipped.empty() && IsWhole(map.domain, map.num_rounded);
       map.foldover_seconds += SecondsSince(fitted);
       return map;
     }

@@ -29,7 +29,8 @@ struct MapOptions {
   /// fit is of its gradients instead of the frames. Where singular edges or sheets have changed it is of less use.
   std::optional<MeshMap> start;
   /// Called after every iteration; of the summary, `iteration`, `cost`, `cost_change`, `gradient_max_norm` and
-  /// `cumulative_time_in_seconds` are set. The cost is the foldover-free energy.
+  /// `cumulative_time_in_seconds` are set. The cost is that of the least squares, counted anew in each fit, or the
+  /// foldover-free energy.
   ceres::IterationCallback* callback = nullptr;
 };
 
@@ -47,6 +48,8 @@ struct SeamlessMap {
   int num_iterations = 0;
   /// Unknowns that were rounded, of an integer-grid map.
   int num_rounded = 0;
+  /// A valid integer-grid map: all is whole, nothing turned over, and the boundary held everywhere.
+  bool is_integer_grid = false;
   double setup_seconds = 0;
   double linear_seconds = 0;
   double foldover_seconds = 0;

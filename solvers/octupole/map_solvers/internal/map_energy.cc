@@ -266,7 +266,8 @@ Eigen::SparseMatrix<double> MapEnergy::Assemble() const {
   return hessian;
 }
 
-int SolveByConjugateGradients(MapEnergy* energy, const Vector& right, double tolerance, int max_iterations, Vector* x) {
+void SolveByConjugateGradients(MapEnergy* energy, const Vector& right, double tolerance, int max_iterations, Vector* x,
+                               const GoesOn& goes_on) {
   const std::size_t n = right.size();
   const Vector& diagonal = energy->Diagonal();
   Vector inverse(n), residual(n), preconditioned(n), direction(n), product(n);
@@ -283,8 +284,7 @@ int SolveByConjugateGradients(MapEnergy* energy, const Vector& right, double tol
   target *= tolerance * tolerance;
   double norm = precondition();
   direction = preconditioned;
-  int iteration = 0;
-  for (; iteration < max_iterations && norm > target; ++iteration) {
+  for (int iteration = 0; iteration < max_iterations && norm > target; ++iteration) {
     energy->Multiply(direction, &product);
     const double curvature = Dot(direction, product);
     if (!(curvature > 0)) break;
@@ -293,11 +293,11 @@ int SolveByConjugateGradients(MapEnergy* energy, const Vector& right, double tol
       (*x)[i] += step * direction[i];
       residual[i] -= step * product[i];
     }
+    if (goes_on && !goes_on(step * norm / 2, residual)) return;
     const double previous = norm;
     norm = precondition();
     for (std::size_t i = 0; i < n; ++i) direction[i] = preconditioned[i] + norm / previous * direction[i];
   }
-  return iteration;
 }
 
 }  // namespace octupole::internal

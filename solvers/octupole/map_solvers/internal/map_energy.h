@@ -4,6 +4,7 @@
 #include <Eigen/SparseCore>
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "octupole/map_solvers/internal/map_system.h"
@@ -77,8 +78,12 @@ class MapEnergy {
   Vector diagonal_;
 };
 
-/// Solves with the Hessian of `energy` for x, from x, by conjugate gradients preconditioned by the diagonal, until the
-/// residual is below `tolerance` of the right-hand side. Returns the number of iterations.
-int SolveByConjugateGradients(MapEnergy* energy, const Vector& right, double tolerance, int max_iterations, Vector* x);
+/// After an iteration: by how much x H x / 2 - right x has fallen, and the residual; false ends.
+using GoesOn = std::function<bool(double gain, const Vector& residual)>;
+
+/// Solves with the Hessian H of `energy` for x, from x, by conjugate gradients preconditioned by the diagonal, until
+/// the residual is below `tolerance` of the right-hand side.
+void SolveByConjugateGradients(MapEnergy* energy, const Vector& right, double tolerance, int max_iterations, Vector* x,
+                               const GoesOn& goes_on = nullptr);
 
 }  // namespace octupole::internal

@@ -25,14 +25,14 @@ double LeastOf(const Vector& values) { return *std::min_element(values.begin(), 
 
 }  // namespace
 
-ceres::TerminationType Untangle(const UntangleOptions& options, MapEnergy* energy, Vector* x, int* num_iterations) {
-  if (energy->num_tets() == 0) return ceres::CONVERGENCE;
+void Untangle(const UntangleOptions& options, MapEnergy* energy, Vector* x, int* num_iterations) {
+  if (energy->num_tets() == 0) return;
   HessianSolver solver(energy);
   double least = LeastOf(energy->Determinants(*x)), epsilon = FirstEpsilon(least);
   Vector gradient, step, trial;
   int num_idle = 0;
   for (int iteration = 0; least <= kLeastDeterminant; ++iteration) {
-    if (iteration == options.max_iterations) return ceres::NO_CONVERGENCE;
+    if (iteration == options.max_iterations) return;
     const double before = energy->EvaluateFoldovers(*x, epsilon, &gradient);
     for (double& g : gradient) g = -g;
     solver.Solve(gradient, kForcing, kMaxInner, &step);
@@ -53,12 +53,8 @@ ceres::TerminationType Untangle(const UntangleOptions& options, MapEnergy* energ
     least = LeastOf(energy->Determinants(*x));
     num_idle = before - after > kLeastGain * before ? 0 : num_idle + 1;
     epsilon = NextEpsilon(epsilon, least, before, after);
-    const ceres::CallbackReturnType wish = options.report(before, after, gradient);
-    if (wish == ceres::SOLVER_ABORT) return ceres::USER_FAILURE;
-    if (wish == ceres::SOLVER_TERMINATE_SUCCESSFULLY) return ceres::USER_SUCCESS;
-    if (num_idle == kMaxIdle) return ceres::NO_CONVERGENCE;
+    if (!options.goes_on(before, after, gradient) || num_idle == kMaxIdle) return;
   }
-  return ceres::CONVERGENCE;
 }
 
 }  // namespace octupole::internal
