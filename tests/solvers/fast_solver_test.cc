@@ -200,6 +200,31 @@ TYPED_TEST(FastSolverTest, IsNotWorseThanCeres) {
   }
 }
 
+// Starts on a graph as coarse as here say little of those that are finer.
+TEST(SolveFast, TakesALinearStartOnAFinerGraphWhereItIsLower) {
+  const FieldGraph graph = GraphOf(MakeBallMesh(20));
+  int num_chosen = 0, num_not_chosen = 0;
+  for (std::uint32_t seed = 0; seed < 6; ++seed) {
+    MinimizerOptions options;
+    options.seed = seed;
+    StepSummary refined, linear;
+    bool is_chosen = false;
+    options.step_callback = [&](const StepSummary& step) {
+      if (step.name == "linear start on a finer graph") linear = step;
+      if (step.name == "level" && linear.num_vertices == 0) refined = step;
+      is_chosen = is_chosen || step.name == "linear start on a finer graph chosen";
+    };
+    SolveFast<3>(graph, {}, options, 30);
+    ASSERT_GT(linear.num_vertices, 0u);
+    EXPECT_LT(linear.num_vertices, graph.num_vertices()) << "on the finest it would take as long as all the rest";
+    EXPECT_EQ(refined.num_vertices, linear.num_vertices);
+    EXPECT_EQ(is_chosen, linear.energy < refined.energy);
+    ++(is_chosen ? num_chosen : num_not_chosen);
+  }
+  EXPECT_GT(num_chosen, 0);
+  EXPECT_GT(num_not_chosen, 0);
+}
+
 TEST(SolveFast, RefusesBadInput) {
   ExpectRefusals([](const auto& graph, const auto& options) { return SolveFast<3>(graph, {}, options); });
   EXPECT_THROW(SolveFast<3>(GraphOf(MakeBoxMesh({1, 1, 1}, {1, 1, 1})), {-1, 0}), std::invalid_argument);

@@ -20,7 +20,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 // The first grid is the finest of cells of one size that has at most so many nodes.
-constexpr double kMaxNodes = 200000;
+constexpr double kMaxNodes = 500000;
 
 // The options for a grid of cells 2^step times as large.
 GridOptions Coarsened(const GridOptions& options, int step, int levels) {

@@ -18,7 +18,7 @@ using GridSolver =
 
 /// A grid as MakeGrid makes it, and a field on it from coarse to fine. `solve` is called for grids of cells 2^k, ...,
 /// 4, 2 times as large and then for the one wanted, which is returned; each begins with the field of the one before.
-/// The first, of cells of one size and at most 200,000 nodes or so, finds the field, such as by SolveFast; on the
+/// The first, of cells of one size and at most 500,000 nodes or so, finds the field, such as by SolveFast; on the
 /// others little is left to do, such as by PolishField, so that details which the first does not resolve have what
 /// field it had there. Coarser grids have as many levels less. Where there are several, cells along the singular curves
 /// of the grid before are the finest, too.

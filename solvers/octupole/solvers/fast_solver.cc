@@ -124,6 +124,17 @@ void Refine(const std::vector<Level>& levels, std::size_t from, std::size_t to, 
   }
 }
 
+// From the linear field, which becomes the result.
+template <int kDegree>
+Start SolveLinear(const Level& level, const std::string& name, std::uint32_t seed, Minimizer* minimizer,
+                  std::vector<Harmonic<kDegree>>* field) {
+  Start start = {name, {}, 0};
+  minimizer->BeginStep(name);
+  *field = internal::HarmonicsOf<kDegree>(internal::LinearFrames(level.graph, kFieldTolerance, seed, minimizer));
+  Solve<kDegree>(level, name, name, minimizer, field, &start);
+  return start;
+}
+
 // From a random field on the graph `from`, on it and those between it and the finer `level`.
 template <int kDegree>
 Start SolveRandom(const std::vector<Level>& levels, std::size_t from, std::size_t level, const std::string& name,
@@ -146,12 +157,8 @@ Start MakeStart(const std::vector<Level>& levels, std::size_t level, int i, std:
   seed += static_cast<std::uint32_t>(round) * kSeedsApart;
   const std::string number = " start " + std::to_string(i + 1);
   if (i == 0) {
-    Start start = {"linear" + number, {}, 0};
-    minimizer->BeginStep(start.name);
-    std::vector<Harmonic<kDegree>> field =
-        internal::HarmonicsOf<kDegree>(internal::LinearFrames(levels[level].graph, kFieldTolerance, seed, minimizer));
-    Solve<kDegree>(levels[level], start.name, start.name, minimizer, &field, &start);
-    return start;
+    std::vector<Harmonic<kDegree>> field;
+    return SolveLinear<kDegree>(levels[level], "linear" + number, seed, minimizer, &field);
   }
   const bool is_coarse = place == kRound - 1 && round < 2 && level + 1 < levels.size();
   const std::size_t from = is_coarse ? levels.size() - 1 : level;
@@ -222,10 +229,32 @@ Start ChooseStart(const std::vector<Level>& levels, const MinimizerOptions& opti
   return std::move(starts[0]);
 }
 
+// Brings a field from `level` to a finer graph, if there is one between it and the finest, and there tries a linear
+// start, too: the starts were on graphs that see nothing smaller than their clusters. The lower of the two goes on.
+template <int kDegree>
+void TryLinearOnFiner(const std::vector<Level>& levels, std::uint32_t seed, Minimizer* minimizer, std::size_t* level,
+                      std::vector<Harmonic<kDegree>>* field) {
+  constexpr std::size_t kMaxVertices = 80000;  // above, it would take longer than all the rest
+  const auto is_small = [&](const Level& each) { return each.graph.num_vertices() <= kMaxVertices; };
+  const auto place = std::find_if(levels.begin() + 1, levels.end(), is_small);
+  const auto finer = static_cast<std::size_t>(place - levels.begin());
+  if (finer > *level) return;
+  minimizer->BeginStep("level");
+  Refine<kDegree>(levels, *level, finer, minimizer, field);
+  *level = finer;
+  Start refined;
+  Solve<kDegree>(*place, "level", "level", minimizer, field, &refined);
+  std::vector<Harmonic<kDegree>> linear_field;
+  const Start linear = SolveLinear<kDegree>(*place, "linear start on a finer graph", seed, minimizer, &linear_field);
+  if (linear.energy >= refined.energy || minimizer->termination() == ceres::FAILURE) return;
+  minimizer->Tell(linear.name + " chosen");
+  *field = std::move(linear_field);
+}
+
 // From a start on the graph `level` to the finest: the field there, and in `start` its frames.
 template <int kDegree>
-std::vector<Harmonic<kDegree>> SolveOnFinest(const std::vector<Level>& levels, std::size_t level, Minimizer* minimizer,
-                                             Start* start) {
+std::vector<Harmonic<kDegree>> SolveOnFinest(const std::vector<Level>& levels, std::size_t level, std::uint32_t seed,
+                                             Minimizer* minimizer, Start* start) {
   std::vector<Harmonic<kDegree>> field;
   if (level == 0) {
     // Further than it takes to compare; then the field next to them.
@@ -235,9 +264,10 @@ std::vector<Harmonic<kDegree>> SolveOnFinest(const std::vector<Level>& levels, s
     MinimizeField<kDegree>(levels[0].graph, levels[0].weights, kFieldTolerance, minimizer, &field);
     return field;
   }
-  field = internal::HarmonicsOf<kDegree>(ProlongateFrames(levels, level - 1, start->frames));
+  field = internal::HarmonicsOf<kDegree>(ProlongateFrames(levels, --level, start->frames));
+  TryLinearOnFiner<kDegree>(levels, seed, minimizer, &level, &field);
   minimizer->BeginStep("level");
-  Refine<kDegree>(levels, level - 1, 0, minimizer, &field);
+  Refine<kDegree>(levels, level, 0, minimizer, &field);
   Solve<kDegree>(levels[0], "field", "frames", minimizer, &field, start);
   return field;
 }
@@ -285,7 +315,9 @@ FieldSolution<kDegree> SolveFast(const FieldGraph& graph, const EnergyWeights& w
   std::size_t level = 0;
   Start start = ChooseStart<kDegree>(levels, options, max_start_vertices, &minimizer, &level);
   std::vector<Harmonic<kDegree>> field;
-  if (minimizer.termination() != ceres::FAILURE) field = SolveOnFinest<kDegree>(levels, level, &minimizer, &start);
+  if (minimizer.termination() != ceres::FAILURE) {
+    field = SolveOnFinest<kDegree>(levels, level, options.seed, &minimizer, &start);
+  }
   return MakeSolution<kDegree>(graph, levels[0], order, field, start.frames, &minimizer);
 }
 

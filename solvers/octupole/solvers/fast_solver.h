@@ -22,7 +22,8 @@ inline constexpr std::size_t kMaxStartVertices = 2000;
 ///     SolveRaySokolov, random ones, one that comes from the coarsest graph, and with more than five also random ones
 ///     found in the other degree. The better half are compared on the next finer graph, and the lowest after polishing
 ///     wins.
-///  3. The field is copied to the next finer graph and minimised there, until the finest.
+///  3. The field is copied to the next finer graph and minimised there, until the finest. On the finest other graph of
+///     at most 80,000 vertices it is compared with another linear start, and the lower of the two goes on.
 ///  4. It is projected to frames, which are polished: their FrameDifference<4>, summed over the edges, is minimised
 ///     (FrameEnergy).
 ///
