@@ -46,8 +46,8 @@ struct MapArguments {
   bool quiet = false;
 };
 
-constexpr const char* kObstacleNames[] = {"",          "turn",      "valence_change", "wedge",
-                                          "thin_part", "collapsed", "flipped",        "released"};
+constexpr const char* kObstacleNames[] = {"",          "turn",    "valence_change", "wedge",      "thin_part",
+                                          "collapsed", "flipped", "released",       "short_curve"};
 
 nlohmann::ordered_json DescribeObstacles(const std::vector<MapObstacle>& obstacles) {
   auto list = nlohmann::ordered_json::array();
@@ -126,7 +126,7 @@ void RunMap(const MapArguments& arguments) {
   progress.Finish();
   const MapDomain& domain = map.domain;
   const MapQuality quality = MeasureMap(domain.mesh, map.parameters, map.size);
-  const std::vector<MapObstacle> obstacles = FindObstacles(domain, map.flipped);
+  const std::vector<MapObstacle> obstacles = FindObstacles(domain, map.flipped, map.parameters);
   WriteHexEx(arguments.output, domain.mesh, map.parameters);
   if (!arguments.vtu.empty()) WriteMapVtu(arguments.vtu, domain.mesh, domain.cut, map.parameters);
   if (!arguments.html.empty()) {

@@ -57,7 +57,8 @@ py::dict Quality(const SeamlessMap& map) {
 
 std::vector<std::string> Obstacles(const SeamlessMap& map) {
   std::vector<std::string> lines;
-  for (const MapObstacle& obstacle : FindObstacles(map.domain, map.flipped)) lines.push_back(obstacle.Describe());
+  for (const MapObstacle& obstacle : FindObstacles(map.domain, map.flipped, map.parameters))
+    lines.push_back(obstacle.Describe());
   return lines;
 }
 

@@ -83,6 +83,26 @@ TEST(SeamlessMap, OfACylinderHasFourCurvesOfValenceThree) {
   EXPECT_LT(quality.flipped_volume, 0.005);
 }
 
+// Four curves, each as long as the cylinder is high, of which H makes a five-hundredth of a cell.
+TEST(SeamlessMap, NamesCurvesThatTheSizeIsTooLargeFor) {
+  const TetMesh mesh = MakeCylinderMesh(8, 6, 2);
+  const std::vector<Eigen::Matrix3d> frames = SolveField<3>(mesh).frames;
+  MapOptions options;
+  for (const double size : {0., 1000.}) {
+    options.size = size;
+    const SeamlessMap map = SolveSeamlessMap(mesh, frames, options);
+    int num_short = 0;
+    for (const MapObstacle& obstacle : FindObstacles(map.domain, map.flipped, map.parameters)) {
+      if (obstacle.kind != ObstacleKind::kShortCurve) continue;
+      ++num_short;
+      EXPECT_NEAR(obstacle.size, 2, 0.2);
+      EXPECT_NEAR(obstacle.cells, 0.002, 0.0005);
+      EXPECT_THAT(obstacle.Describe(), HasSubstr("the size is too large for it; at"));
+    }
+    EXPECT_EQ(num_short, size == 0 ? 0 : 4);
+  }
+}
+
 // A rib of 45 degrees, whose slope is of one sheet with the plate: no tetrahedron at its tip is turned over.
 TEST(SeamlessMap, OfARibIsFlatNowhere) {
   const TetMesh mesh = MakeRibMesh(1);

@@ -66,21 +66,60 @@ std::vector<MapObstacle> GroupTets(const TetMesh& mesh, ObstacleKind kind, const
   return Group(mesh, kind, cells, [&](std::size_t i, MapObstacle* obstacle) { obstacle->tets.push_back(tets[i]); });
 }
 
-std::vector<MapObstacle> FindValenceChanges(const MapDomain& domain) {
-  std::map<int, std::vector<const SingularEdge*>> edges_of;
-  for (const SingularEdge& edge : domain.singular_edges) {
-    for (const int v : edge.vertices) edges_of[v].push_back(&edge);
+// Of every vertex on singular curves the singular edges there, as indices.
+std::map<int, std::vector<int>> SingularEdgesOfVertices(const MapDomain& domain) {
+  std::map<int, std::vector<int>> edges_of;
+  for (std::size_t e = 0; e < domain.singular_edges.size(); ++e) {
+    for (const int v : domain.singular_edges[e].vertices) edges_of[v].push_back(static_cast<int>(e));
   }
+  return edges_of;
+}
+
+std::vector<MapObstacle> FindValenceChanges(const MapDomain& domain) {
   std::vector<MapObstacle> obstacles;
-  for (const auto& [v, edges] : edges_of) {
-    if (edges.size() != 2 || edges[0]->valence + edges[1]->valence != 8) continue;
-    if (edges[0]->valence == edges[1]->valence) continue;
+  for (const auto& [v, edges] : SingularEdgesOfVertices(domain)) {
+    if (edges.size() != 2) continue;
+    const SingularEdge &one = domain.singular_edges[edges[0]], &other = domain.singular_edges[edges[1]];
+    if (one.valence + other.valence != 8 || one.valence == other.valence) continue;
     MapObstacle obstacle = {ObstacleKind::kValenceChange, {}, {}, domain.mesh.points[v]};
-    for (const SingularEdge* edge : edges) {
+    for (const SingularEdge* edge : {&one, &other}) {
       obstacle.edges.push_back(edge->vertices);
       obstacle.size += LengthOf(domain.mesh, edge->vertices);
     }
     obstacles.push_back(std::move(obstacle));
+  }
+  return obstacles;
+}
+
+// The length of a singular edge in the map.
+double CellsAlong(const MapDomain& domain, const CornerParameters& parameters, const SingularEdge& edge) {
+  const int t = domain.rings.steps[domain.rings.begin[edge.ring]].tet;
+  const std::array<int, 4>& tet = domain.mesh.tets[t];
+  const auto parameters_of = [&](int v) { return parameters[t][std::find(tet.begin(), tet.end(), v) - tet.begin()]; };
+  return (parameters_of(edge.vertices[0]) - parameters_of(edge.vertices[1])).norm();
+}
+
+// Curves go on at vertices of two singular edges, and end elsewhere.
+std::vector<MapObstacle> FindShortCurves(const MapDomain& domain, const CornerParameters& parameters) {
+  constexpr double kShort = 0.1;
+  internal::UnionFind curves(static_cast<int>(domain.singular_edges.size()));
+  for (const auto& [v, edges] : SingularEdgesOfVertices(domain)) {
+    if (edges.size() == 2) curves.Unite(edges[0], edges[1]);
+  }
+  std::map<int, MapObstacle> found;
+  for (std::size_t e = 0; e < domain.singular_edges.size(); ++e) {
+    const SingularEdge& edge = domain.singular_edges[e];
+    MapObstacle& curve = found.try_emplace(curves.Root(static_cast<int>(e)), MapObstacle{}).first->second;
+    curve.kind = ObstacleKind::kShortCurve;
+    curve.edges.push_back(edge.vertices);
+    curve.size += LengthOf(domain.mesh, edge.vertices);
+    curve.cells += CellsAlong(domain, parameters, edge);
+  }
+  std::vector<MapObstacle> obstacles;
+  for (auto& [root, curve] : found) {
+    if (curve.cells >= kShort) continue;
+    curve.place = domain.mesh.points[curve.edges[curve.edges.size() / 2][0]];
+    obstacles.push_back(std::move(curve));
   }
   return obstacles;
 }
@@ -149,12 +188,17 @@ std::string MapObstacle::Describe() const {
       line << "the boundary faces of " << tets.size() << (tets.size() == 1 ? " tetrahedron" : " tetrahedra")
            << " within " << size << " hold no parameter constant: no map does that and does not flatten what is below";
       break;
+    case ObstacleKind::kShortCurve:
+      edges_of_length(" singular");
+      line << ", a curve of only " << cells << " cells in the map: the size is too large for it";
+      break;
   }
   line << "; at " << place.x() << " " << place.y() << " " << place.z();
   return line.str();
 }
 
-std::vector<MapObstacle> FindObstacles(const MapDomain& domain, const std::vector<int>& flipped) {
+std::vector<MapObstacle> FindObstacles(const MapDomain& domain, const std::vector<int>& flipped,
+                                       const CornerParameters& parameters) {
   std::vector<Edge> turns, wedges;
   for (const SingularEdge& edge : domain.singular_edges) {
     if (edge.valence == 0) turns.push_back(edge.vertices);
@@ -187,6 +231,7 @@ std::vector<MapObstacle> FindObstacles(const MapDomain& domain, const std::vecto
     if (face.is_released && !domain.sheets.sheets[face.sheet].is_released) released.insert(face.tet);
   }
   append(GroupTets(domain.mesh, ObstacleKind::kReleased, {released.begin(), released.end()}));
+  if (!parameters.empty()) append(FindShortCurves(domain, parameters));
   return obstacles;
 }
 

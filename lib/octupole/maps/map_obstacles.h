@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "octupole/maps/map_domain.h"
+#include "octupole/maps/map_quality.h"
 
 namespace octupole {
 
@@ -18,6 +19,7 @@ enum class ObstacleKind : std::uint8_t {
   kCollapsed = 5,      ///< tetrahedra that are flat in every map
   kFlipped = 6,        ///< tetrahedra that the map turns over or flattens
   kReleased = 7,       ///< tetrahedra at the boundary on whose faces no parameter is held constant
+  kShortCurve = 8,     ///< a singular curve that is shorter than a tenth of a cell in the map
 };
 
 /// What stands in the way of a map at one place: all of a kind that hangs together.
@@ -32,6 +34,8 @@ struct MapObstacle {
   double size = 0;
   /// Of a wedge, the sharpest angle.
   double angle_deg = 0;
+  /// Of a short curve, its length in the map.
+  double cells = 0;
 
   /// One line that names it, its size, its place, and what it means.
   std::string Describe() const;
@@ -39,6 +43,8 @@ struct MapObstacle {
 
 /// Kind by kind, the largest first.
 /// \param flipped of a map of the domain.
-std::vector<MapObstacle> FindObstacles(const MapDomain& domain, const std::vector<int>& flipped);
+/// \param parameters of that map; without them no short curves are found.
+std::vector<MapObstacle> FindObstacles(const MapDomain& domain, const std::vector<int>& flipped,
+                                       const CornerParameters& parameters = {});
 
 }  // namespace octupole
