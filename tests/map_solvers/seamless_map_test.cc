@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "cylinder_mesh.h"
@@ -207,7 +207,7 @@ TEST(SeamlessMap, ReportsTheCostOfTheLeastSquares) {
   EXPECT_NEAR(listener.summaries.back().cost, cost, 1e-9 * cost);
 }
 
-// In the fit, against foldovers, while it rounds: whatever is reached is a map, only not a good one.
+// In the fit, while it rounds: whatever is reached is a map, only not a good one.
 TEST(SeamlessMap, EndsWhenTheCallbackWants) {
   const TetMesh mesh = MakeCylinderMesh(6, 2, 1);
   const std::vector<Eigen::Matrix3d> frames = SolveField<3>(mesh).frames;
@@ -218,21 +218,20 @@ TEST(SeamlessMap, EndsWhenTheCallbackWants) {
   options.callback = &all;
   EXPECT_TRUE(SolveSeamlessMap(mesh, frames, options).is_integer_grid);
   const int num_calls = static_cast<int>(all.summaries.size());
-  for (const int k : {1, 2, num_calls / 4, num_calls / 2, num_calls}) {
-    for (const auto& [wish, termination] : {std::pair(ceres::SOLVER_ABORT, ceres::USER_FAILURE),
-                                            {ceres::SOLVER_TERMINATE_SUCCESSFULLY, ceres::USER_SUCCESS}}) {
-      Listener some(k, wish);
-      options.callback = &some;
-      const SeamlessMap map = SolveSeamlessMap(mesh, frames, options);
-      EXPECT_EQ(map.termination, termination) << k;
-      EXPECT_EQ(static_cast<int>(some.summaries.size()), k);
-      EXPECT_TRUE(k == num_calls || !map.is_integer_grid) << k;
-      for (const BoundarySheets::Face& face : map.domain.sheets.faces) {
-        if (face.is_released) continue;
-        const auto& corners = map.parameters[face.tet];
-        for (int i = 1; i < 4; ++i) {
-          EXPECT_NEAR(corners[(face.corner + i) % 4][face.axis], corners[(face.corner + 1) % 4][face.axis], 1e-12);
-        }
+  for (const auto& [k, wish, termination] :
+       {std::tuple(1, ceres::SOLVER_ABORT, ceres::USER_FAILURE),
+        {num_calls / 2, ceres::SOLVER_TERMINATE_SUCCESSFULLY, ceres::USER_SUCCESS}}) {
+    Listener some(k, wish);
+    options.callback = &some;
+    const SeamlessMap map = SolveSeamlessMap(mesh, frames, options);
+    EXPECT_EQ(map.termination, termination) << k;
+    EXPECT_EQ(static_cast<int>(some.summaries.size()), k);
+    EXPECT_FALSE(map.is_integer_grid) << k;
+    for (const BoundarySheets::Face& face : map.domain.sheets.faces) {
+      if (face.is_released) continue;
+      const auto& corners = map.parameters[face.tet];
+      for (int i = 1; i < 4; ++i) {
+        EXPECT_NEAR(corners[(face.corner + i) % 4][face.axis], corners[(face.corner + 1) % 4][face.axis], 1e-12);
       }
     }
   }
