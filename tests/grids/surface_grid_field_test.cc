@@ -28,7 +28,7 @@ TEST(SolveOnGrids, GoesFromCoarseToFine) {
   const TriangleMesh surface = BoundarySurface(MakeCylinderMesh(48, 24, 2));
   for (const int levels : {1, 3}) {
     GridOptions options;
-    options.size = levels == 1 ? 0.031 : 0.06;
+    options.size = levels == 1 ? 0.023 : 0.06;
     options.levels = levels;
     Frames frames;
     std::vector<std::size_t> num_nodes;
