@@ -17,6 +17,11 @@ using Edge = std::array<int, 2>;
 
 double LengthOf(const TetMesh& mesh, const Edge& edge) { return (mesh.points[edge[0]] - mesh.points[edge[1]]).norm(); }
 
+void SortBySize(std::vector<MapObstacle>* obstacles) {
+  std::stable_sort(obstacles->begin(), obstacles->end(),
+                   [](const MapObstacle& a, const MapObstacle& b) { return a.size > b.size; });
+}
+
 // The cells that share vertices, as one obstacle each.
 template <std::size_t N, typename Add>
 std::vector<MapObstacle> Group(const TetMesh& mesh, ObstacleKind kind, const std::vector<std::array<int, N>>& cells,
@@ -47,8 +52,7 @@ std::vector<MapObstacle> Group(const TetMesh& mesh, ObstacleKind kind, const std
     obstacles[k].place = (low[k] + high[k]) / 2;
     if (obstacles[k].size == 0) obstacles[k].size = (high[k] - low[k]).norm();
   }
-  std::stable_sort(obstacles.begin(), obstacles.end(),
-                   [](const MapObstacle& a, const MapObstacle& b) { return a.size > b.size; });
+  SortBySize(&obstacles);
   return obstacles;
 }
 
@@ -121,6 +125,7 @@ std::vector<MapObstacle> FindShortCurves(const MapDomain& domain, const CornerPa
     curve.place = domain.mesh.points[curve.edges[curve.edges.size() / 2][0]];
     obstacles.push_back(std::move(curve));
   }
+  SortBySize(&obstacles);
   return obstacles;
 }
 
