@@ -77,6 +77,10 @@ TEST(GridSampler, SaysWhatIsWrong) {
   const SurfaceGrid grid = MakeBallGrid(0.2, 1);
   const Frames frames = SmoothFrames(grid);
   EXPECT_THROW(GridSampler(grid, {}), std::invalid_argument);
+  Frames scaled = frames;
+  scaled[5] *= 2;
+  EXPECT_NE(MessageOf<std::invalid_argument>([&] { GridSampler(grid, scaled); }).find("GridSampler: "),
+            std::string::npos);
   EXPECT_NE(MessageOf<std::invalid_argument>([&] {
               GridSampler(grid, frames).Sample({{0, 0, 0}, {0, NAN, 0}});
             }).find("GridSampler: point 1 is not finite"),

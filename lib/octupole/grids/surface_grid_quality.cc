@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
 #include "octupole/field/field_quality.h"
 #include "octupole/grids/internal/grid_alignment.h"
@@ -24,14 +22,10 @@ constexpr double kSpacing = 1;
 
 GridQuality MeasureGridField(const TriangleMesh& surface, const SurfaceGrid& grid,
                              const std::vector<Matrix3d>& frames) {
-  if (frames.size() != grid.points.size()) {
-    throw std::invalid_argument("MeasureGridField: " + std::to_string(frames.size()) + " frames for " +
-                                std::to_string(grid.points.size()) + " nodes");
-  }
+  const internal::FrameInterpolation field("MeasureGridField", grid, frames);
   GridQuality quality;
   quality.energy3 = SmoothnessOfFrames<3>(grid.graph.edges, frames);
   quality.energy4 = SmoothnessOfFrames<4>(grid.graph.edges, frames);
-  const internal::CellFinder finder(grid);
   double sum = 0;
   for (const auto& triangle : surface.triangles) {
     const Vector3d normal = TriangleNormal(surface.points, triangle);
@@ -39,14 +33,14 @@ GridQuality MeasureGridField(const TriangleMesh& surface, const SurfaceGrid& gri
     std::array<Vector3d, 3> corners;
     for (int i = 0; i < 3; ++i) corners[i] = surface.points[triangle[i]];
     internal::SampleTriangle(corners, kSpacing * grid.size, [&](const Vector3d& x, double) {
-      const int cell = finder.Find(x);
+      const int cell = field.FindCell(x);
       if (cell < 0) return;
       const std::array<int, 8>& nodes = grid.cells[cell];
       const auto may_be_smooth = [&](int v) { return grid.graph.alignments[v].kind() != AlignmentKind::kFrame; };
       const auto is_aligned = [&](int v) { return grid.graph.alignments[v].kind() == AlignmentKind::kAxis; };
       if (!std::all_of(nodes.begin(), nodes.end(), may_be_smooth)) return;
       if (std::none_of(nodes.begin(), nodes.end(), is_aligned)) return;
-      const Matrix3d frame = internal::InterpolateFrames(grid, frames, cell, x);
+      const Matrix3d frame = field.Interpolate(cell, x);
       const double cosine = (frame.transpose() * normal).cwiseAbs().maxCoeff();
       const double degrees = std::acos(std::min(1., cosine)) * 180 / M_PI;
       sum += degrees * degrees;

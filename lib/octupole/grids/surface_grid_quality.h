@@ -24,7 +24,7 @@ struct GridQuality {
 /// Between nodes, the field is that frame whose hexadecapole is nearest to those of the nodes, interpolated.
 /// \param surface that the grid was made of.
 /// \param frames one rotation per node, its columns the axes.
-/// \throw std::invalid_argument unless there is one frame per node.
+/// \throw std::invalid_argument unless there is one frame per node and each is a rotation.
 GridQuality MeasureGridField(const TriangleMesh& surface, const SurfaceGrid& grid,
                              const std::vector<Eigen::Matrix3d>& frames);
 

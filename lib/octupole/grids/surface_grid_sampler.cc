@@ -41,7 +41,8 @@ Tree OuterCells(const SurfaceGrid& grid, std::vector<AlignedBox3d>* boxes) {
 }  // namespace
 
 struct GridSampler::Index {
-  explicit Index(const SurfaceGrid& grid) : grid(grid), finder(grid), outer_cells(OuterCells(grid, &boxes)) {}
+  Index(const SurfaceGrid& grid, const std::vector<Eigen::Matrix3d>& frames)
+      : grid(grid), field("GridSampler", grid, frames), outer_cells(OuterCells(grid, &boxes)) {}
 
   // The cell that is nearest to a point outside.
   int Nearest(const Vector3d& point) const {
@@ -70,19 +71,13 @@ struct GridSampler::Index {
   }
 
   const SurfaceGrid& grid;
-  internal::CellFinder finder;
+  internal::FrameInterpolation field;
   std::vector<AlignedBox3d> boxes;
   Tree outer_cells;
 };
 
 GridSampler::GridSampler(const SurfaceGrid& grid, const std::vector<Eigen::Matrix3d>& frames)
-    : grid_(grid), frames_(frames) {
-  if (frames.size() != grid.points.size()) {
-    throw std::invalid_argument("GridSampler: " + std::to_string(frames.size()) + " frames for " +
-                                std::to_string(grid.points.size()) + " nodes");
-  }
-  index_ = std::make_unique<Index>(grid);
-}
+    : index_(std::make_unique<Index>(grid, frames)) {}
 
 GridSampler::~GridSampler() = default;
 
@@ -96,10 +91,10 @@ FieldSamples GridSampler::Sample(const std::vector<Vector3d>& points) const {
       message << "GridSampler: point " << i << " is not finite: [" << points[i].transpose() << "]";
       throw std::invalid_argument(message.str());
     }
-    int cell = index_->finder.Find(points[i]);
+    int cell = index_->field.FindCell(points[i]);
     samples.is_inside.push_back(cell >= 0);
     if (cell < 0) cell = index_->Nearest(points[i]);
-    samples.frames.push_back(internal::InterpolateFrames(grid_, frames_, cell, points[i]));
+    samples.frames.push_back(index_->field.Interpolate(cell, points[i]));
   }
   return samples;
 }

@@ -16,7 +16,7 @@ class GridSampler {
  public:
   /// Keeps the references.
   /// \param frames one rotation per node, its columns the axes.
-  /// \throw std::invalid_argument unless there is one frame per node.
+  /// \throw std::invalid_argument unless there is one frame per node and each is a rotation.
   GridSampler(const SurfaceGrid& grid, const std::vector<Eigen::Matrix3d>& frames);
   ~GridSampler();
 
@@ -26,8 +26,6 @@ class GridSampler {
 
  private:
   struct Index;
-  const SurfaceGrid& grid_;
-  const std::vector<Eigen::Matrix3d>& frames_;
   std::unique_ptr<const Index> index_;
 };
 

@@ -43,8 +43,6 @@ void VisitNodes(const Vector3d& x, const NodeAt& node_at, const Visit& visit) {
 
 // The sum of the normals at each node near the surface.
 struct NearbyNormals {
-  /// Of a node, its place among the sums, or -1.
-  std::vector<int> place_of;
   std::vector<int> nodes;
   std::vector<NormalSum> sums;
 };
@@ -55,45 +53,42 @@ std::array<Vector3d, 3> CornersOf(const std::vector<Vector3d>& points, const std
 
 class NormalSummation {
  public:
-  NormalSummation(const NodeAt& node_at, std::size_t num_nodes) : node_at_(node_at) {
-    result_.place_of.assign(num_nodes, -1);
-  }
+  NormalSummation(const NodeAt& node_at, std::size_t num_nodes)
+      : node_at_(node_at), places_(num_nodes, -1), weights_(num_nodes, 0) {}
 
+  // Samples of one triangle come near the same nodes again and again: their weights are added up first.
   void Add(const std::array<Vector3d, 3>& corners, const Vector3d& normal) {
+    SampleTriangle(corners, kSampleSpacing, [&](const Vector3d& x, double area) {
+      VisitNodes(x, node_at_, [&](int node, double weight) {
+        if (weights_[node] == 0) nodes_.push_back(node);
+        weights_[node] += area * weight;
+      });
+    });
     NormalSum of_triangle;
     of_triangle.Add(normal, 1);
-    SampleTriangle(corners, kSampleSpacing, [&](const Vector3d& x, double area) {
-      VisitNodes(x, node_at_, [&](int node, double weight) { weights_.push_back({node, area * weight}); });
-      constexpr std::size_t kManyWeights = 10000;
-      if (weights_.size() > kManyWeights) Flush(of_triangle);
-    });
-    Flush(of_triangle);
-  }
-
-  NearbyNormals result() && { return std::move(result_); }
-
- private:
-  // Samples of one triangle come near the same nodes again and again: their weights are added up first.
-  void Flush(const NormalSum& of_triangle) {
-    std::sort(weights_.begin(), weights_.end());
-    for (std::size_t i = 0; i < weights_.size();) {
-      const int node = weights_[i].first;
-      double weight = 0;
-      for (; i < weights_.size() && weights_[i].first == node; ++i) weight += weights_[i].second;
-      int& place = result_.place_of[node];
+    for (const int node : nodes_) {
+      int& place = places_[node];
       if (place < 0) {
         place = static_cast<int>(result_.sums.size());
         result_.nodes.push_back(node);
         result_.sums.emplace_back();
       }
-      result_.sums[place].Add(of_triangle, weight);
+      result_.sums[place].Add(of_triangle, weights_[node]);
+      weights_[node] = 0;
     }
-    weights_.clear();
+    nodes_.clear();
   }
 
+  NearbyNormals result() && { return std::move(result_); }
+
+ private:
   const NodeAt& node_at_;
   NearbyNormals result_;
-  std::vector<std::pair<int, double>> weights_;
+  // Of a node, its place among the sums, or -1.
+  std::vector<int> places_;
+  // Of the triangle at work: the nodes near it, and of each node the weight.
+  std::vector<int> nodes_;
+  std::vector<double> weights_;
 };
 
 NearbyNormals SumNormals(const std::vector<Vector3d>& points, const std::vector<std::array<int, 3>>& triangles,
