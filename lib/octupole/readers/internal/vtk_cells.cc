@@ -1,5 +1,6 @@
 #include "octupole/readers/internal/vtk_cells.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace octupole::internal {
@@ -75,6 +76,8 @@ const char* OtherCells(int type) {
   }
 }
 
+bool IsTet(int type) { return type == kTet || type == kQuadraticTet || type == kLagrangeTet || type == kBezierTet; }
+
 }  // namespace
 
 void AddVtkCells(const VtkCells& cells, std::size_t first_point,
@@ -88,6 +91,9 @@ void AddVtkCells(const VtkCells& cells, std::size_t first_point,
     }
     return static_cast<int>(first_point + index);
   };
+  const std::size_t num_tets = std::count_if(cells.types.begin(), cells.types.end(), IsTet);
+  mesh.tets.reserve(num_tets);
+  if (!cells.regions.empty()) mesh.regions.reserve(num_tets);
   std::int64_t begin = 0;
   for (std::size_t c = 0; c < cells.types.size(); begin = cells.ends[c++]) {
     const std::int64_t size = cells.ends[c] - begin;
