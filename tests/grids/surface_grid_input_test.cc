@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <stdexcept>
 
 #include "ball_mesh.h"
@@ -160,23 +161,38 @@ TEST(MakeGridInput, LeavesBottlesEmpty) {
   }
 }
 
-// An edge between faces at 45 degrees to a plane, close to it: a node between them sees all three.
+// An edge between faces at 45 degrees to a plane, close to it: a node between them sees all three. With small
+// triangles, hundreds of them.
 TEST(MakeGridInput, CountsNodesBetweenSheetsThatDisagree) {
-  TriangleMesh turned = Box({-0.2, -0.2, 0}, {0.2, 0.2, 0.3});
-  for (Vector3d& p : turned.points) {
-    p = Vector3d((p.x() - p.y()) * std::sqrt(0.5), (p.x() + p.y()) * std::sqrt(0.5), p.z());
-  }
   const double gap = 0.02;
   const double face = 0.4 * std::sqrt(0.5) + gap;
-  const TriangleMesh both = Joined(turned, Box({face, -0.3, 0}, {face + 0.2, 0.3, 0.3}));
-  const GridAlignment coarse = MakeGridOfSize(both, 0.05).grid.alignment;
-  EXPECT_GE(coarse.num_conflicts, 6u);
-  EXPECT_GE(coarse.num_free, coarse.num_conflicts);
-  ASSERT_TRUE(coarse.separating_size.has_value());
-  EXPECT_GT(*coarse.separating_size, 0.99 * gap / 1.8);
-  EXPECT_LT(*coarse.separating_size, 1.6 * gap / 1.8);
-  const GridAlignment fine = MakeGridOfSize(both, 0.6 * *coarse.separating_size).grid.alignment;
-  EXPECT_EQ(fine.num_conflicts, 0u);
+  for (const int cells : {1, 40}) {
+    TriangleMesh turned = Box({-0.2, -0.2, 0}, {0.2, 0.2, 0.3}, cells);
+    for (Vector3d& p : turned.points) {
+      p = Vector3d((p.x() - p.y()) * std::sqrt(0.5), (p.x() + p.y()) * std::sqrt(0.5), p.z());
+    }
+    const TriangleMesh both = Joined(turned, Box({face, -0.3, 0}, {face + 0.2, 0.3, 0.3}, cells));
+    const GridAlignment coarse = MakeGridOfSize(both, 0.05).grid.alignment;
+    EXPECT_GE(coarse.num_conflicts, 6u);
+    EXPECT_GE(coarse.num_free, coarse.num_conflicts);
+    ASSERT_TRUE(coarse.separating_size.has_value());
+    EXPECT_GT(*coarse.separating_size, 0.99 * gap / 1.8);
+    EXPECT_LT(*coarse.separating_size, 1.6 * gap / 1.8);
+    const GridAlignment fine = MakeGridOfSize(both, 0.6 * *coarse.separating_size).grid.alignment;
+    EXPECT_EQ(fine.num_conflicts, 0u);
+  }
+}
+
+// Thousands of triangles within reach of each node, and no two alike: it takes seconds, not hours.
+TEST(MakeGridInput, TakesAScribbleOfTriangles) {
+  TriangleMesh scribble = BoundarySurface(MakeBallMesh(12));
+  std::mt19937 generator(1);
+  std::normal_distribution<double> noise(0, 0.5);
+  for (Vector3d& p : scribble.points) p += Vector3d(noise(generator), noise(generator), noise(generator));
+  const GridAlignment alignment = MakeGridOfSize(scribble, 0.5).grid.alignment;
+  EXPECT_GT(alignment.num_conflicts, 0u);
+  ASSERT_TRUE(alignment.separating_size.has_value());
+  EXPECT_LT(*alignment.separating_size, 0.01);
 }
 
 TEST(ForecastGrid, KnowsTheSizeOfGrids) {

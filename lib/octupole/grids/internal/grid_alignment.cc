@@ -156,12 +156,9 @@ double DistanceToTriangle(const std::array<Vector3d, 3>& corners, const Vector3d
   return (nearest - to_vdb(x)).length();
 }
 
-// The least distance between two sheets of the surface near a node, if there are several: triangles belong to one sheet
-// if they are joined by common corners, near the node.
-std::optional<double> DistanceBetweenSheets(const std::vector<Vector3d>& points,
-                                            const std::vector<std::array<int, 3>>& triangles,
-                                            const std::vector<NearbySample>& samples) {
-  // Of each corner, and so of each triangle, a corner that stands for its sheet.
+// Of each sample, a corner that stands for its sheet: triangles belong to one if they are joined by common corners,
+// near the node.
+std::vector<int> SheetsOf(const std::vector<std::array<int, 3>>& triangles, const std::vector<NearbySample>& samples) {
   std::unordered_map<int, int> parent;
   const auto sheet_of = [&](int v) {
     while (true) {
@@ -175,16 +172,38 @@ std::optional<double> DistanceBetweenSheets(const std::vector<Vector3d>& points,
     parent[sheet_of(b)] = sheet_of(a);
     parent[sheet_of(c)] = sheet_of(a);
   }
-  std::optional<double> distance;
+  std::vector<int> sheets;
+  sheets.reserve(samples.size());
+  for (const NearbySample& sample : samples) sheets.push_back(sheet_of(triangles[sample.triangle][0]));
+  return sheets;
+}
+
+// The least distance between two sheets of the surface near a node, or `bound` if it is no less; nothing if there is
+// only one sheet.
+std::optional<double> DistanceBetweenSheets(const std::vector<Vector3d>& points,
+                                            const std::vector<std::array<int, 3>>& triangles,
+                                            const std::vector<NearbySample>& samples, double bound) {
+  const std::vector<int> sheets = SheetsOf(triangles, samples);
+  if (std::all_of(sheets.begin(), sheets.end(), [&](int sheet) { return sheet == sheets[0]; })) return std::nullopt;
+  std::vector<double> radii;  // of the triangles, about their samples
+  radii.reserve(samples.size());
   for (const NearbySample& sample : samples) {
-    for (const NearbySample& other : samples) {
-      const auto& triangle = triangles[other.triangle];
-      if (sheet_of(triangles[sample.triangle][0]) == sheet_of(triangle[0])) continue;
-      const double between = DistanceToTriangle(CornersOf(points, triangle), sample.point);
-      distance = std::min(between, distance.value_or(between));
+    double radius = 0;
+    for (const Vector3d& corner : CornersOf(points, triangles[sample.triangle])) {
+      radius = std::max(radius, (corner - sample.point).norm());
+    }
+    radii.push_back(radius);
+  }
+  // As many as a few sheets have; where thousands of triangles meet in one cell, every so many of them.
+  constexpr std::size_t kManySamples = 200;
+  const std::size_t step = 1 + samples.size() / kManySamples;
+  for (std::size_t i = 0; i < samples.size(); i += step) {
+    for (std::size_t j = 0; j < samples.size(); ++j) {
+      if (sheets[i] == sheets[j] || (samples[i].point - samples[j].point).norm() - radii[j] >= bound) continue;
+      bound = std::min(bound, DistanceToTriangle(CornersOf(points, triangles[samples[j].triangle]), samples[i].point));
     }
   }
-  return distance;
+  return bound;
 }
 
 }  // namespace
@@ -246,16 +265,16 @@ GridAlignment AlignGrid(const TriangleMesh& surface, const std::vector<Vector3d>
     if (aligned.conflict > kMaxSheetConflict) doubtful[node] = i;
   }
   // An edge is the surface's own; sheets that happen to be near are not to be met halfway.
+  double least_distance = std::numeric_limits<double>::infinity();
   for (const auto& [node, samples] : CollectSamples(points, surface.triangles, doubtful, node_at)) {
-    const std::optional<double> distance = DistanceBetweenSheets(points, surface.triangles, samples);
+    const std::optional<double> distance = DistanceBetweenSheets(points, surface.triangles, samples, least_distance);
     if (!distance) continue;
     (*alignments)[node] = Alignment();
     cases[doubtful.at(node)] = SurfaceCase::kFree;
     ++result.num_conflicts;
-    if (*distance == 0) continue;  // they touch, and no size separates them
-    const double size = *distance / (2 * kReach);
-    result.separating_size = std::min(size, result.separating_size.value_or(size));
+    if (*distance > 0) least_distance = *distance;  // at 0 they touch, and no size separates them
   }
+  if (std::isfinite(least_distance)) result.separating_size = least_distance / (2 * kReach);
   for (const SurfaceCase surface_case : cases) Count(surface_case, &result);
   return result;
 }
