@@ -48,6 +48,15 @@ class ReadTriangleMeshTest : public testing::Test {
   std::vector<int> faces_;
 };
 
+// OpenMesh would read floats, and nothing of what they cannot hold.
+TEST_F(ReadTriangleMeshTest, KeepsAllDigitsOfAnObj) {
+  const TriangleMesh mesh =
+      Read("a.obj", "v 1000000.123456789 0 0\nv 1000001.123456789 1e-60 0\nv 0 1e60 0\nf 1 2 3\n");
+  EXPECT_EQ(mesh.points[0].x(), 1000000.123456789);
+  EXPECT_EQ(mesh.points[1], Vector3d(1000001.123456789, 1e-60, 0));
+  EXPECT_EQ(mesh.points[2].y(), 1e60);
+}
+
 TEST_F(ReadTriangleMeshTest, CutsThePolygonsOfAnObj) {
   const TriangleMesh mesh = Read(
       "a.obj",

@@ -95,23 +95,21 @@ class FaceCollector final : public OpenMesh::IO::ImporterT<Mesh> {
   std::vector<std::vector<int>> faces_;
 };
 
-// The vertices and faces of an OBJ file. OpenMesh asserts that faces have vertices, passes over vertices that are no
-// numbers, so that all that come after have wrong indices, and opens whatever files of materials are named.
-std::string CheckedObj(const std::filesystem::path& path) {
+// The vertices and faces of an OBJ file, with the coordinates apart: OpenMesh would round them to floats. It also
+// asserts that faces have vertices, passes over vertices that are no numbers, so that all that come after have wrong
+// indices, and opens whatever files of materials are named.
+std::string CheckedObj(const std::filesystem::path& path, std::vector<Eigen::Vector3d>* points) {
   const internal::FileContent content(path);
   internal::TextTokenizer tokens(path.string(), content.text(), '#');
   std::ostringstream checked;
   while (!tokens.AtEnd()) {
     const std::string_view keyword = tokens.NextWord();
     if (keyword == "v") {
-      checked << "v";
-      for (int k = 0; k < 3; ++k) {
+      for (double& coordinate : points->emplace_back()) {
         if (tokens.AtLineEnd()) tokens.Fail("a vertex has less than three coordinates");
-        internal::TextTokenizer bookmark = tokens;
-        tokens.NextReal("a coordinate");
-        checked << " " << bookmark.NextWord();
+        coordinate = tokens.NextReal("a coordinate");
       }
-      checked << "\n";
+      checked << "v 0 0 0\n";
     } else if (keyword == "f") {
       if (tokens.AtLineEnd()) tokens.Fail("a face without vertices");
       checked << "f";
@@ -225,14 +223,16 @@ std::string CheckedPly(const std::filesystem::path& path) {
   }
 }
 
-bool Import(const std::filesystem::path& path, const std::string& extension, OpenMesh::IO::BaseImporter* importer) {
+// Gives the points of an OBJ file, too; those of others are what the importer is given.
+bool Import(const std::filesystem::path& path, const std::string& extension, OpenMesh::IO::BaseImporter* importer,
+            std::vector<Eigen::Vector3d>* points) {
   OpenMesh::IO::Options options;
   if (extension == ".stl") {
     CheckStl(path);
     return OpenMesh::IO::IOManager().read(path.string(), *importer, options);
   }
   if (extension == ".obj") {
-    std::istringstream stream(CheckedObj(path));
+    std::istringstream stream(CheckedObj(path, points));
     return OpenMesh::IO::IOManager().read(stream, extension, *importer, options);
   }
   std::unique_ptr<std::istream> stream;
@@ -280,17 +280,17 @@ TriangleMesh ReadTriangleMesh(const std::filesystem::path& path, std::vector<std
 
   Mesh vertices;
   FaceCollector collector(path, &vertices);
+  TriangleMesh mesh;
   bool is_read = false;
   try {
     const ScopedSilence silence;
-    is_read = Import(path, extension, &collector);
+    is_read = Import(path, extension, &collector, &mesh.points);
   } catch (const std::ios_base::failure&) {
     throw fail("it ends too early, or has something else than numbers");
   }
   if (!is_read) throw fail("OpenMesh cannot read it as " + extension);
 
-  TriangleMesh mesh;
-  for (std::size_t v = 0; v < vertices.n_vertices(); ++v) {
+  for (std::size_t v = mesh.points.size(); v < vertices.n_vertices(); ++v) {
     const OpenMesh::Vec3d p = vertices.point(OpenMesh::VertexHandle(static_cast<int>(v)));
     mesh.points.emplace_back(p[0], p[1], p[2]);
     if (!mesh.points.back().allFinite()) throw fail("vertex " + std::to_string(v + 1) + " is not finite");

@@ -12,9 +12,9 @@ namespace octupole {
 bool IsSurfaceFile(const std::filesystem::path& path);
 
 /// Reads the surface in an .obj, .off, .stl or .ply file with OpenMesh. Polygons are cut into fans (see FanOfPolygon),
-/// the corners of an STL file are merged where they coincide, and coordinates have the precision of floats. Faces stay
-/// as they are also where they are no manifold, which a mesh of OpenMesh could not hold. Of OBJ files only vertices and
-/// faces are read.
+/// the corners of an STL file are merged where they coincide, and coordinates have the precision of floats but in OBJ
+/// files. Faces stay as they are also where they are no manifold, which a mesh of OpenMesh could not hold. Of OBJ files
+/// only vertices and faces are read.
 /// \param warnings if given, receives a line about each thing that is odd.
 /// \param faces if given, receives for each triangle the number of its face in the file, from 0 and in ascending order.
 /// \throw std::runtime_error "path:line: what is wrong", or "path: what is wrong" where OpenMesh tells no line: another
